@@ -1,0 +1,151 @@
+// The main call: points in, certified facets out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "core/huge_array.h"
+#include "core/ids.h"
+#include "core/points.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Limits on the work; 0 means none. A limit that is hit ends growth; what is there is completed,
+/// certified and labelled by Hull::status.
+struct Limits {
+  std::uint64_t max_facets = 0;        ///< simplices of the growth complex
+  double max_seconds = 0.0;            ///< wall clock, from the start of the call
+  std::uint64_t max_memory_bytes = 0;  ///< accounted memory of the tables
+};
+
+/// The phases of one run, in order; the report, the progress line and the benchmarks use these names.
+enum class Phase { kGrowth, kCertify, kMerge, kCount };
+std::string_view to_string(Phase phase);
+
+/// What the progress callback is told, a few times a second.
+struct Progress {
+  Phase phase = Phase::kGrowth;
+  std::uint64_t points_left = 0;   ///< points still outside
+  std::uint64_t simplices = 0;     ///< rows of the growth complex now
+  double furthest_gauge = 0.0;     ///< [ratio] how far outside the last point added was
+  double elapsed_seconds = 0.0;
+  std::uint64_t memory_bytes = 0;
+};
+
+struct HullOptions {
+  bool triangulate = false;  ///< facets stay simplices: no coplanar merging
+  bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
+  Limits limits;
+  std::uint64_t seed = 1;    ///< of the inward shifts; the result depends on it below roundoff only
+  unsigned threads = 0;      ///< 0: all cores. The result does not depend on it.
+  std::function<void(const Progress&)> progress;  ///< called from the calling thread
+  std::stop_token stop;                           ///< a request ends growth: status kInterrupted
+};
+
+enum class HullStatus { kComplete, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
+std::string_view to_string(HullStatus status);
+
+/// Numbers about the run.
+struct HullStatistics {
+  std::uint64_t created_simplices = 0;
+  std::uint64_t insertions = 0;
+  std::uint64_t shifted_points = 0;      ///< points that had to be moved inwards (input is nearly degenerate)
+  std::uint64_t rejected_insertions = 0; ///< insertions whose horizon did not close and that were not committed
+  std::uint64_t repair_rounds = 0;
+  std::array<double, static_cast<std::size_t>(Phase::kCount)> seconds{};
+  std::vector<std::pair<std::string_view, double>> detail_seconds;  ///< finer clock, for the benchmarks
+};
+
+/// The convex hull of a set of points: facets with certified outer and inner planes.
+///
+/// Planes    distance(x) = normal . x + offset, unit normal, positive outside. What is certified is the
+///           plane normal . (x - reference) + centred_offset, where reference is the origin unless the
+///           data lie far from it; `offset` is its rounding, which moves no distance by more than roundoff.
+/// Flat data When the points span only rank < dimension, the facets are those of the hull inside the
+///           affine subspace; normals lie in it, areas are (rank-1)-dimensional, volume rank-dimensional.
+///           rank 0 (all points equal): no facets. rank 1: two facets, one vertex each.
+/// Widths    outer_offset, inner_offset are in the length unit: input, or unit-cube with that option.
+class Hull {
+ public:
+  std::size_t dimension = 0;  ///< columns of the input
+  std::size_t rank = 0;       ///< affine dimension of the input
+  std::size_t point_count = 0;
+  HullStatus status = HullStatus::kComplete;
+
+  std::vector<double> interior_point;      ///< dimension numbers, input units, strictly inside the hull
+  std::vector<double> reference;           ///< dimension numbers: origin of the certified planes
+  std::vector<double> subspace_equations;  ///< (dimension - rank) rows of dimension + 1: normal, offset
+  std::vector<double> unit_cube_extents;   ///< with unit_cube: the extent of each column; otherwise empty
+
+  std::vector<PointId> vertices;  ///< ascending; no redundant ones
+  SimplicialComplex simplices;    ///< compacted; planes are the growth's dual planes or empty
+
+  double area = 0.0;         ///< of the hull of the input, input units
+  double volume = 0.0;
+  double roundoff = 0.0;         ///< [distance] proven rounding error of a distance, length unit
+  double max_outer_offset = 0.0; ///< [distance] certified, >= 0
+  double min_inner_offset = 0.0; ///< [distance] certified, <= 0
+  double max_facet_width = 0.0;  ///< [distance]
+  double max_outside_gauge = 0.0;///< [ratio]
+  std::uint64_t points_outside = 0;
+  HullStatistics statistics;
+
+  std::size_t facet_count() const { return facet_count_; }
+  std::size_t simplicial_facet_count() const { return simplicial_facet_count_; }
+
+  std::span<const double> normal(FacetId facet) const { return {normals_.data() + facet.value * dimension, dimension}; }
+  double offset(FacetId facet) const;
+  double centred_offset(FacetId facet) const { return centred_offsets_[facet.value]; }
+  double outer_offset(FacetId facet) const { return outer_[facet.value]; }   ///< >= 0, length unit
+  double inner_offset(FacetId facet) const { return inner_[facet.value]; }   ///< <= 0, length unit
+  double area_of(FacetId facet) const { return areas_[facet.value]; }        ///< input units
+  /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
+  double input_per_length_unit(FacetId facet) const;
+
+  /// Sorted ids; exactly rank of them for a simplicial facet in the order of its simplex.
+  std::span<const PointId> vertices_of(FacetId facet) const;
+  std::span<const FacetId> neighbours_of(FacetId facet) const;
+  std::span<const SimplexId> simplices_of(FacetId facet) const;
+  FacetId facet_of(SimplexId simplex) const;
+  bool is_simplicial(FacetId facet) const { return simplices_of(facet).size() == 1; }
+
+ private:
+  friend class HullBuilder;
+  /// Rows of ids of different lengths in one array.
+  struct Rows {
+    std::vector<std::uint32_t> begin;  // facet_count + 1
+    std::vector<std::uint32_t> values;
+  };
+  std::size_t facet_count_ = 0;
+  std::size_t simplicial_facet_count_ = 0;
+  bool merged_ = false;  // false: facet f is simplex f, and the tables of the complex serve
+  HugeArray<double> normals_, centred_offsets_, outer_, inner_, areas_;
+  Rows facet_vertices_, facet_neighbours_, facet_simplices_;
+  std::vector<FacetId> facet_of_simplex_;
+};
+
+/// Computes the convex hull of `points`.
+///
+/// Returns   every facet with certified outer and inner offsets. All points coplanar, equal, or fewer than
+///           dimension + 1: the hull inside the affine subspace they span (see Hull).
+/// Throws    Error kEmptyInput no rows; kDimensionTooLow dimension 0; kNotFinite NaN or infinity, with row
+///           and column; kDimensionTooHigh rank above kMaxRank; kTooManyPoints 2^31 rows or more.
+/// Not promised  the same facets for another seed where data are degenerate below roundoff.
+/// Cost      time and memory grow with the facets of the hull: about 150 bytes each in 8-d, and
+///           8 rank bytes for each point.
+/// Source    core/DESIGN.md; Barber, Dobkin, Huhdanpaa. The Quickhull algorithm for convex hulls. ACM
+///           TOMS 22(4), 1996, for the frame of the algorithm.
+Hull convex_hull(const PointView& points, const HullOptions& options = {});
+
+/// The highest affine rank that growth is compiled for.
+inline constexpr std::size_t kMaxRank = 16;
+
+}  // namespace ndhull

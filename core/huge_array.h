@@ -1,0 +1,62 @@
+// A growing array that never copies: address space is reserved once, pages come when they are touched.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace ndhull {
+
+/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages.
+/// Throws std::bad_alloc when the address space is refused.
+void* reserve_pages(std::size_t bytes);
+/// Gives back what `reserve_pages` returned.
+void release_pages(void* address, std::size_t bytes);
+/// Gives the memory of whole pages in [from, to) back to the system; the addresses stay reserved and
+/// read as zero.
+void discard_pages(void* from, void* to);
+
+/// Array of plain records that can grow in place up to the capacity given at the start. Growing costs
+/// nothing but the pages that are touched: references stay valid, peak memory is the final size.
+/// New elements are zero.
+template <class T>
+class HugeArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  HugeArray() = default;
+  explicit HugeArray(std::size_t capacity)
+      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity)))), capacity_(capacity) {}
+  HugeArray(HugeArray&& other) noexcept { swap(other); }
+  HugeArray& operator=(HugeArray&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~HugeArray() {
+    if (data_ != nullptr) release_pages(data_, bytes_for(capacity_));
+  }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  T& operator[](std::size_t index) { return data_[index]; }
+  const T& operator[](std::size_t index) const { return data_[index]; }
+  std::size_t capacity() const { return capacity_; }
+
+  /// Returns the memory behind elements [count, capacity) to the system.
+  void discard_from(std::size_t count) {
+    if (data_ != nullptr) discard_pages(data_ + count, data_ + capacity_);
+  }
+
+ private:
+  // 64 spare bytes: vector loads may read, never use, what lies behind the last element.
+  static std::size_t bytes_for(std::size_t capacity) { return capacity * sizeof(T) + 64; }
+  void swap(HugeArray& other) {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  T* data_ = nullptr;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace ndhull

@@ -1,0 +1,62 @@
+// The growth complex: simplices with their vertices, neighbours and dual planes, in flat tables.
+//
+// Invariants (core/complex_check.h tests them)
+//   * neighbour k of a simplex is opposite its vertex k, and shares the other rank-1 vertices;
+//   * the relation is symmetric and closed: no neighbour is none;
+//   * replacing a vertex never changes the order of the others, so the orientation of the vertex rows is
+//     the same for all simplices;
+//   * a simplex without points outside has outside_head none.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/huge_array.h"
+#include "core/ids.h"
+
+namespace ndhull {
+
+/// What a row of the tables holds just now.
+enum class SimplexState : std::uint8_t {
+  kFree = 0,     ///< not in use
+  kLive = 1,     ///< part of the hull
+  kVisible = 2,  ///< during one insertion: the apex is above it
+  kHidden = 3,   ///< during one insertion: tested, and the apex is not above it
+};
+
+/// Simplicial facets as parallel rows: row s of each table is SimplexId s.
+///
+/// Shapes  planes: rows x rank, the dual vertex a with a.y = 1 on the facet in the frame's coordinates.
+///         topology: rows x 2 rank, first the vertices (PointId values), then the neighbours.
+/// Memory  16 rank + 5 bytes a row: 133 bytes in 8-d.
+struct SimplicialComplex {
+  std::size_t rank = 0;
+  std::size_t row_count = 0;  ///< rows in use or free; after `compact` all of them are live
+  HugeArray<double> planes;
+  HugeArray<std::uint32_t> topology;
+  HugeArray<SimplexState> state;
+  HugeArray<std::uint32_t> outside_head;  ///< first point of the outside set + 1, 0 when empty
+
+  SimplicialComplex() = default;
+  SimplicialComplex(std::size_t rank_of_points, std::size_t capacity)
+      : rank(rank_of_points),
+        planes(capacity * rank_of_points),
+        topology(capacity * 2 * rank_of_points),
+        state(capacity),
+        outside_head(capacity) {}
+
+  std::span<const double> plane(SimplexId simplex) const { return {planes.data() + simplex.value * rank, rank}; }
+  std::span<const PointId> vertices(SimplexId simplex) const {
+    return {reinterpret_cast<const PointId*>(topology.data() + simplex.value * 2 * rank), rank};
+  }
+  std::span<const SimplexId> neighbours(SimplexId simplex) const {
+    return {reinterpret_cast<const SimplexId*>(topology.data() + simplex.value * 2 * rank + rank), rank};
+  }
+};
+
+/// Renumbers the live rows to 0 .. n-1 in their present order and gives the rest of the memory back.
+/// Cost O(rows), 4 bytes a row of scratch.
+void compact(SimplicialComplex& complex);
+
+}  // namespace ndhull
