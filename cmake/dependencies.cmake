@@ -1,0 +1,13 @@
+# What the library and the program need; scripts/packages.txt names the Debian packages. Tests and bench find
+# their own. Nothing is fetched. Imported targets are SYSTEM: their headers raise no warnings here.
+# Of CGAL only the d-dimensional kernel (LGPL) is used; its GPL packages may not enter library or program.
+find_package(Threads REQUIRED)
+find_package(CGAL 5.5 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(hwy 1.0 REQUIRED)
+find_package(TBB 2021 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(CLI11 2 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(FastFloat 3 REQUIRED)
+find_package(glm REQUIRED)

@@ -1,0 +1,23 @@
+# Flags every source of the project is compiled with. Link the two targets PRIVATE:
+#   target_link_libraries(my_target PRIVATE ndhull_arithmetic ndhull_warnings)
+# No -march=native: speed comes from run-time dispatch (Highway), one binary runs everywhere. No -ffast-math:
+# the error bounds are proofs about IEEE arithmetic.
+
+# The compiler must not fuse a*b + c on its own: the same source would round differently from machine to
+# machine, and results are the same bytes everywhere. An explicit fused multiply-add stays what it is.
+add_library(ndhull_arithmetic INTERFACE)
+target_compile_options(ndhull_arithmetic INTERFACE -ffp-contract=off)
+
+add_library(ndhull_warnings INTERFACE)
+target_compile_options(
+  ndhull_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+                            $<$<BOOL:${NDHULL_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# Static libraries end up inside shared ones (language bindings).
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# A plain `cmake -S . -B build` must not give an unoptimised engine.
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""House rules a compiler does not check; prints every place that breaks one and exits 1 if there is any.
+
+Layers      core includes nothing of approx, tools; approx nothing of tools; none of them tests or bench.
+Libraries   CGAL only in core/exact_orientation.cpp, and there only headers under the LGPL; GLM only in
+            approx/projection.*; no streams in core and approx: they have no output. (Tests and bench are free.)
+Sources     every .cpp is named in a CMakeLists.txt of its folder or one above; no file has more than 400 lines.
+Words       no identifier `eps`, no `using namespace std`, no note left open without an issue number.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = ["core", "approx", "tools", "tests", "bench", "include", "scripts"]
+SUFFIXES = {".cpp", ".h", ".py"}
+MAX_LINES = 400
+MAY_NOT_INCLUDE = {
+    "core": {"approx", "tools", "tests", "bench"},
+    "approx": {"tools", "tests", "bench"},
+    "tools": {"tests", "bench"},
+}
+CGAL_FILE = "core/exact_orientation.cpp"
+# NewKernel_d and Number_types are LGPL; Triangulation, QP_solver, Spatial_searching and most others are GPL.
+CGAL_HEADERS = {"CGAL/Epick_d.h", "CGAL/Epeck_d.h", "CGAL/Gmpq.h", "CGAL/Gmpz.h", "CGAL/Gmpzf.h", "CGAL/Mpzf.h",
+                "CGAL/Interval_nt.h", "CGAL/determinant.h"}
+GLM_FILES = re.compile(r"approx/projection\.(cpp|h)$")
+STREAMS = {"iostream", "fstream", "ostream", "istream"}
+# Written in two halves, so that this file passes its own check.
+OPEN_NOTE = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b(?!\(#\d+\))")
+EPSILON = re.compile(r"\b(\w+_)?ep" + r"s(_\w*)?\b")
+COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+
+
+def without_comments_and_strings(text):
+    return COMMENT_OR_STRING.sub(lambda match: "\n" * match.group().count("\n"), text)
+
+
+def check_includes(name, line_number, header):
+    top = name.split("/")[0]
+    where = f"{name}:{line_number}"
+    if header.split("/")[0] in MAY_NOT_INCLUDE.get(top, set()):
+        yield f"{where}: {top} may not include {header}"
+    if top not in MAY_NOT_INCLUDE:
+        return
+    if header.startswith("CGAL/") and name != CGAL_FILE:
+        yield f"{where}: CGAL belongs in {CGAL_FILE}"
+    if header.startswith("CGAL/") and header not in CGAL_HEADERS:
+        yield f"{where}: {header} is not among the headers known to be LGPL"
+    if header.startswith("glm/") and not GLM_FILES.match(name):
+        yield f"{where}: GLM belongs in approx/projection.*"
+    if header in STREAMS and top != "tools":
+        yield f"{where}: {top} has no input and output, <{header}> is not for it"
+
+
+def check_file(path):
+    name = path.relative_to(ROOT).as_posix()
+    text = path.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    if len(lines) > MAX_LINES:
+        yield f"{name}: {len(lines)} lines, at most {MAX_LINES}: does it hold two ideas?"
+    for number, line in enumerate(lines, 1):
+        if OPEN_NOTE.search(line):
+            yield f"{name}:{number}: a note left open needs an issue, written as in TO" + "DO(#12)"
+        include = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        if include:
+            yield from check_includes(name, number, include.group(1))
+    if path.suffix == ".py":
+        return
+    for number, line in enumerate(without_comments_and_strings(text).splitlines(), 1):
+        if EPSILON.search(line):
+            yield f"{name}:{number}: say roundoff (what arithmetic forces) or tolerance (what the user allows)"
+        if re.search(r"\busing\s+namespace\s+std\b", line):
+            yield f"{name}:{number}: no using namespace std"
+
+
+def check_is_built(path):
+    name = path.relative_to(ROOT).as_posix()
+    folder = path.parent
+    while folder != ROOT:
+        lists = folder / "CMakeLists.txt"
+        if lists.exists() and path.relative_to(folder).as_posix() in re.split(r"[\s()]+", lists.read_text()):
+            return
+        folder = folder.parent
+    yield f"{name}: in no CMakeLists.txt, so it is not built"
+
+
+def main():
+    findings = []
+    files = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*") if path.suffix in SUFFIXES)
+    for path in files:
+        findings.extend(check_file(path))
+        if path.suffix == ".cpp":
+            findings.extend(check_is_built(path))
+    print("\n".join(findings) if findings else f"check_layers: {len(files)} files, nothing found")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
