@@ -14,7 +14,8 @@ int main() {
       }
     }
   }
-  const ndhull::PointView points = ndhull::PointView::row_major(coordinates.data(), 2 * kDimension, kDimension);
+  const ndhull::PointView points =
+      ndhull::PointView::row_major(coordinates.data(), 2 * kDimension, kDimension);
   const ndhull::Hull hull = ndhull::convex_hull(points);
   std::printf("%zu facets, %zu vertices, widest %g\n", hull.facet_count(), hull.vertices.size(),
               hull.max_facet_width);

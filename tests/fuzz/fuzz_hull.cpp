@@ -32,7 +32,9 @@ struct Cloud {
   std::size_t dimension = 0;
   std::vector<double> coordinates;
   std::size_t rows() const { return coordinates.size() / dimension; }
-  std::span<const double> row(std::size_t index) const { return {coordinates.data() + index * dimension, dimension}; }
+  std::span<const double> row(std::size_t index) const {
+    return {coordinates.data() + index * dimension, dimension};
+  }
 };
 
 Cloud read_cloud(const std::uint8_t* data, std::size_t size) {
@@ -45,8 +47,8 @@ Cloud read_cloud(const std::uint8_t* data, std::size_t size) {
   return cloud;
 }
 
-/// The affine rank, exactly: elimination modulo a prime. Minors are below (9 sqrt 6)^6 < 2^27 (Hadamard), so none
-/// that is not zero vanishes modulo 2^31 - 1.
+/// The affine rank, exactly: elimination modulo a prime. Minors are below (9 sqrt 6)^6 < 2^27 (Hadamard), so
+/// none that is not zero vanishes modulo 2^31 - 1.
 std::size_t affine_rank(const Cloud& cloud) {
   constexpr std::int64_t kPrime = 2147483647;
   const auto power = [](std::int64_t base, std::int64_t exponent) {
@@ -70,7 +72,8 @@ std::size_t affine_rank(const Cloud& cloud) {
         difference[column] = (difference[column] + (kPrime - factor) * basis[index][column]) % kPrime;
       }
     }
-    const auto pivot = std::find_if(difference.begin(), difference.end(), [](std::int64_t value) { return value != 0; });
+    const auto pivot =
+        std::find_if(difference.begin(), difference.end(), [](std::int64_t value) { return value != 0; });
     if (pivot == difference.end()) continue;
     const std::int64_t inverse = power(*pivot, kPrime - 2);
     pivots.push_back(static_cast<std::size_t>(pivot - difference.begin()));

@@ -1,10 +1,10 @@
 // A small driver for fuzz targets where the compiler brings no libFuzzer.
 //
-// Replays every file named on the command line (a folder: every file in it), then for NDHULL_FUZZ_SECONDS seconds
-// (default 5) feeds inputs: pseudo-random bytes, and mutations of the replayed files, which get past the first
-// line of a reader. The inputs are those of a fixed seed, NDHULL_FUZZ_SEED (default 1); how many of them are
-// reached in the time is the machine's affair. An input that crashes is left as fuzz-crash.bin in the working
-// directory, to be replayed with  <target> fuzz-crash.bin  and then kept in the corpus.
+// Replays every file named on the command line (a folder: every file in it), then for NDHULL_FUZZ_SECONDS
+// seconds (default 5) feeds inputs: pseudo-random bytes, and mutations of the replayed files, which get past
+// the first line of a reader. The inputs are those of a fixed seed, NDHULL_FUZZ_SEED (default 1); how many of
+// them are reached in the time is the machine's affair. An input that crashes is left as fuzz-crash.bin in
+// the working directory, to be replayed with  <target> fuzz-crash.bin  and then kept in the corpus.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -41,7 +41,8 @@ extern "C" void keep_crash(int signal) {
   const int file = open("fuzz-crash.bin", O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (file >= 0) {
     const char note[] = "fuzz: crash, input kept as fuzz-crash.bin\n";
-    if (write(file, current_data, current_size) >= 0 && write(STDERR_FILENO, note, sizeof note - 1) >= 0) close(file);
+    if (write(file, current_data, current_size) >= 0 && write(STDERR_FILENO, note, sizeof note - 1) >= 0)
+      close(file);
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
@@ -116,7 +117,10 @@ class InputMaker {
         break;
       case 2: input.insert(at, byte()); break;
       case 3: input.erase(at, at + static_cast<std::ptrdiff_t>(length)); break;
-      case 4: input.insert(input.begin() + static_cast<std::ptrdiff_t>(below(input.size() + 1)), piece.begin(), piece.end()); break;
+      case 4:
+        input.insert(input.begin() + static_cast<std::ptrdiff_t>(below(input.size() + 1)), piece.begin(),
+                     piece.end());
+        break;
       default: input.resize(place); break;
     }
   }
