@@ -2,6 +2,7 @@
 # their own. Nothing is fetched. Imported targets are SYSTEM: their headers raise no warnings here.
 # Of CGAL only the d-dimensional kernel (LGPL) is used; its GPL packages may not enter library or program.
 find_package(Threads REQUIRED)
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE) # dev and the sanitizers are slow on purpose
 find_package(CGAL 5.5 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(hwy 1.0 REQUIRED)
