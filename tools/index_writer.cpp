@@ -1,0 +1,26 @@
+#include "tools/index_writer.h"
+
+#include <cstdint>
+
+#include "tools/file_bytes.h"
+#include "tools/npy_header.h"
+#include "tools/output_file.h"
+
+namespace ndhull {
+
+void write_indices(const std::string& path, std::span<const PointId> indices) {
+  OutputFile file(path);
+  if (extension_of(path) == "npy") {
+    file.write(make_npy_header("<i8", {indices.size()}));
+    for (const PointId point : indices) {
+      const std::int64_t index = point.value;
+      file.write({reinterpret_cast<const char*>(&index), sizeof index});
+    }
+  } else {
+    file.print("{}\n", indices.size());
+    for (const PointId point : indices) file.print("{}\n", point.value);
+  }
+  file.commit();
+}
+
+}  // namespace ndhull
