@@ -18,8 +18,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(ndhull_warnings INTERFACE -Wno-restrict)
 endif()
 
-# Static libraries end up inside shared ones (language bindings).
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 # A plain `cmake -S . -B build` must not give an unoptimised engine.
