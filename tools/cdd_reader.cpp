@@ -79,7 +79,7 @@ MatrixHeader read_matrix_header(const TextSource& source, const Line& line) {
     source.fail(ErrorCode::kBadHeader, line.start,
                 fmt::format("found \"{}\" below begin, expected rows, columns and integer, rational or real; "
                             "correct the line",
-                            line.text.substr(0, 40)));
+                            printable(line.text)));
   }
   if (header.columns < 2) {
     source.fail(ErrorCode::kDimensionTooLow, line.start,

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "tools/text_source.h"
 
 namespace ndhull {
 namespace {
@@ -38,9 +39,9 @@ class Reader {
         header.shape = tuple();
         has_shape = true;
       } else {
-        fail("key '" + key + "'");
+        fail("key '" + printable(key) + "'");
       }
-      if (!accept(',') && peek() != '}') fail("text after the value of '" + key + "'");
+      if (!accept(',') && peek() != '}') fail("text after the value of " + key);
     }
     if (!has_type || !has_order || !has_shape) fail("a header without descr, fortran_order or shape");
     return header;

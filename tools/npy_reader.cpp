@@ -144,7 +144,7 @@ std::size_t check_header(const NpyHeader& header, std::size_t file_size, const s
         ErrorCode::kUnknownType,
         fmt::format("{}: found elements of type {}, expected <f4, <f8, <f2 or little-endian integers; save "
                     "array.astype('<f8')",
-                    name, header.type));
+                    name, printable(header.type)));
   }
   if (header.shape[1] == 0) {
     throw Error(

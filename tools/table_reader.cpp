@@ -169,12 +169,6 @@ NumberTable read_table(const TextSource& source) {
       place = end == source.end() ? end : end + 1;
     }
     if (table.columns == 0) table.columns = count;
-    if (table.rows == 0) {
-      // The first row tells the length of the others; 1/8 for rows that are shorter.
-      const auto length = static_cast<std::size_t>(end - line) + 1;
-      const auto left = static_cast<std::size_t>(source.end() - line);
-      table.values.reserve((left / length + left / length / 8 + 1) * table.columns);
-    }
     if (count != table.columns) {
       // A lone integer above may be the beginning of a Qhull file whose count is missing.
       const bool lone = table.columns == 1 && separator == kBlanks;
@@ -183,6 +177,12 @@ NumberTable read_table(const TextSource& source) {
                               source.line_of(header),
                               lone ? "if that line is Qhull's dimension, the number of points must follow it"
                                    : "complete the row or remove it"));
+    }
+    if (table.rows == 0) {
+      // The first row tells the length of the others; 1/8 for rows that are shorter.
+      const auto length = static_cast<std::size_t>(end - line) + 1;
+      const auto left = static_cast<std::size_t>(source.end() - line);
+      table.values.reserve((left / length + left / length / 8 + 1) * table.columns);
     }
     ++table.rows;
   }

@@ -12,18 +12,12 @@
 namespace ndhull {
 namespace {
 
-// Longer words are cut in messages: a message is one line.
-constexpr std::size_t kLongestWord = 40;
-
-/// The word at `place`, printable and not too long. A decimal comma is part of it, a separator is not.
+/// The word at `place`. A decimal comma is part of it, a separator is not.
 std::string word_at(const char* place, const char* end, bool with_comma) {
-  std::string word;
-  for (; place != end && !is_blank(*place) && *place != '\n'; ++place) {
-    if (!with_comma && (*place == ',' || *place == ';')) break;
-    if (word.size() >= kLongestWord) return word + "...";
-    word += std::isprint(static_cast<unsigned char>(*place)) != 0 ? *place : '?';
-  }
-  return word;
+  const char* stop = place;
+  while (stop != end && !is_blank(*stop) && *stop != '\n' && (with_comma || (*stop != ',' && *stop != ';')))
+    ++stop;
+  return printable(std::string_view(place, static_cast<std::size_t>(stop - place)));
 }
 
 /// Every usual spelling, with a sign or in quotes: nan, NaN(0x1), inf, Infinity, and 1.#INF, 1.#QNAN as
@@ -88,6 +82,15 @@ void TextSource::require_content() const {
     throw Error(ErrorCode::kEmptyInput,
                 fmt::format("{}: found an empty file, expected numbers; check what wrote it", name_));
   }
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongest = 40;  // a message is one line
+  std::string shown(text.substr(0, kLongest));
+  for (char& letter : shown) {
+    if (std::isprint(static_cast<unsigned char>(letter)) == 0) letter = '?';
+  }
+  return text.size() > kLongest ? shown + "..." : shown;
 }
 
 const char* parse_number(const char* place, const char* end, double& value) {

@@ -53,6 +53,9 @@ inline const char* skip_blanks(const char* place, const char* end) {
 }
 inline bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
+/// `text` for a one-line message: cut at 40 characters, control characters as question marks.
+std::string printable(std::string_view text);
+
 /// Reads the number at `place`, correctly rounded.
 ///
 /// Returns   the first character behind it, or null when there is no finite number (text, NaN, infinity,
