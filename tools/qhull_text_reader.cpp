@@ -95,7 +95,10 @@ IntegerLine read_integer_line(const TextSource& source, const char* place) {
     const char* const stop = parse_count(at, end, value);
     if (stop == nullptr || (stop != end && !is_blank(*stop))) {
       line.has_text = true;
-      line.text_is_number = is_digit(*at) || *at == '-' || *at == '+' || *at == '.';
+      const char* word_end = at;
+      while (word_end != end && !is_blank(*word_end)) ++word_end;
+      line.text_is_number = is_digit(*at) || *at == '-' || *at == '+' || *at == '.' ||
+                            names_non_finite({at, static_cast<std::size_t>(word_end - at)});
       break;
     }
     if (line.count < 2) line.value[line.count] = value;

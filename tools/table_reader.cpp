@@ -47,26 +47,15 @@ bool is_number(const std::string& field) {
   return parse_number(field.data(), end, value) == end;
 }
 
-/// NaN and infinity stand where a number belongs: a line that holds them is data, and an error.
-bool is_non_finite(const TextSource& source, const std::string& field) {
-  const TextSource text(source.name(), field);
-  try {
-    text.fail_number(text.begin(), 1);
-  } catch (const Error& error) {
-    return error.code() == ErrorCode::kNotFinite;
-  }
-}
-
-bool is_header(const TextSource& source, const std::vector<std::string>& fields) {
+bool is_header(const std::vector<std::string>& fields) {
   for (const std::string& field : fields) {
     // "1.2abc" is a damaged number rather than a name.
-    if (!field.empty() && (is_digit(field[0]) || is_number(field) || is_non_finite(source, field)))
-      return false;
+    if (!field.empty() && (is_digit(field[0]) || is_number(field) || names_non_finite(field))) return false;
   }
   return true;
 }
 
-char find_separator(const TextSource& source, std::string_view line) {
+char find_separator(std::string_view line) {
   bool quoted = false;
   bool comma = false;
   bool tab = false;
@@ -80,7 +69,7 @@ char find_separator(const TextSource& source, std::string_view line) {
   }
   if (tab) {
     // Tabs that only align numbers are blanks; between names, a blank belongs to the name.
-    const bool names = is_header(source, split(line, kBlanks));
+    const bool names = is_header(split(line, kBlanks));
     return comma || names ? '\t' : kBlanks;
   }
   return comma ? ',' : kBlanks;
@@ -109,12 +98,13 @@ std::size_t read_fields(const TextSource& source, const char* place, const char*
     }
     const char* stop = parse_number(first, end, value);
     if (stop == nullptr) source.fail_number(first, count);
-    if (quoted && stop != end && *stop == '"') ++stop;
-    stop = skip(stop);
+    if (quoted && (stop == end || *stop++ != '"')) source.fail_number(at, count);
     values.push_back(value);
-    if (stop == end || *stop == '#') return count;
-    if (*stop != separator) source.fail_number(first, count);
-    at = stop;
+    const char* const next = skip(stop);
+    // 1.#INF is not a number with a comment.
+    if (next == end || (*next == '#' && next != stop)) return count;
+    if (*next != separator) source.fail_number(first, count);
+    at = next;
   }
 }
 
@@ -149,11 +139,11 @@ NumberTable read_table(const TextSource& source) {
       first_line = false;
       header = line;
       const std::string_view view(line, static_cast<std::size_t>(end - line));
-      separator = find_separator(source, view);
+      separator = find_separator(view);
       std::string_view content = view;
       while (!content.empty() && content.back() == '\r') content.remove_suffix(1);
       std::vector<std::string> fields = split(content, separator);
-      if (is_header(source, fields)) {
+      if (is_header(fields)) {
         check_names(source, line, fields);
         table.columns = fields.size();
         table.names = std::move(fields);

@@ -20,18 +20,6 @@ std::string word_at(const char* place, const char* end, bool with_comma) {
   return printable(std::string_view(place, static_cast<std::size_t>(stop - place)));
 }
 
-/// Every usual spelling, with a sign or in quotes: nan, NaN(0x1), inf, Infinity, and 1.#INF, 1.#QNAN as
-/// older C libraries print them.
-bool names_non_finite(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  word.erase(std::remove_if(word.begin(), word.end(),
-                            [](char letter) { return letter == '"' || letter == '+' || letter == '-'; }),
-             word.end());
-  return word == "nan" || word.starts_with("nan(") || word == "inf" || word == "infinity" ||
-         word.starts_with("1.#in") || word.starts_with("1.#qnan") || word.starts_with("1.#snan");
-}
-
 /// Digits that stand for a number no double can hold.
 bool overflows(const char* place, const char* end) {
   if (place != end && (*place == '+' || *place == '-')) ++place;
@@ -82,6 +70,17 @@ void TextSource::require_content() const {
     throw Error(ErrorCode::kEmptyInput,
                 fmt::format("{}: found an empty file, expected numbers; check what wrote it", name_));
   }
+}
+
+bool names_non_finite(std::string_view text) {
+  std::string word;
+  for (const char letter : text) {
+    if (letter == '"' || letter == '+' || letter == '-') continue;
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  // nan(0x1) shows the payload; 1.#INF and 1.#QNAN is how older C libraries print.
+  return word == "nan" || word.starts_with("nan(") || word == "inf" || word == "infinity" ||
+         word.starts_with("1.#in") || word.starts_with("1.#qnan") || word.starts_with("1.#snan");
 }
 
 std::string printable(std::string_view text) {
