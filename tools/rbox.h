@@ -28,6 +28,7 @@ namespace ndhull {
 ///           * numbers it would overflow, hexadecimal ones, more than 2^31-1 points, 'c' above 26-d,
 ///           coordinates
 ///             that do not fit an int with 'z', and sets that hold NaN (`1 l`).
+/// Not promised  the last digit of r, l and L on another C library than glibc: they use its sin, cos and asin.
 /// Cost      O(points x dimension); text and numbers of the whole set are held in memory.
 std::string rbox_text(std::string_view arguments);
 
