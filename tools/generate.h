@@ -65,17 +65,15 @@ std::size_t row_count(const GenerateOptions& options);
 /// Generates the rows in order and gives them away in blocks.
 ///
 /// Shapes    each block: some rows x options.dimension, row-major, of options.scalar; the view is valid
-/// during
-///           the call only. The blocks together have row_count(options) rows.
-/// Throws    Error kDimensionTooLow dimension 0; kUsage: count 0 for a family without an end, more than a
-/// finite
-///           family has, a parameter outside its range, kTrigonometric in odd dimensions; kTooManyPoints when
+///           during the call only. The blocks together have row_count(options) rows.
+/// Throws    Error kDimensionTooLow dimension 0; kUsage count 0 for a family without an end, more rows than
+///           a lattice has, a parameter outside its range, kTrigonometric in odd dimensions; kTooManyPoints
 ///           2^d or side^d is above 2^40.
 /// Not promised  distinct rows, or rows exactly on a surface: coordinates are rounded.
 /// Cost      O(rows x dimension) time; one block of about a megabyte of memory.
-/// Source    uniform on the sphere: Muller. Comm. ACM 2(4), 1959. Uniform in the ball: the first d
-/// coordinates
-///           of a uniform point of the sphere in d+2 dimensions; Barthe et al. Ann. Probab. 33(2), 2005.
+/// Source    uniform on the sphere: Muller. Comm. ACM 2(4), 1959. Uniform in the ball: the
+///           first d coordinates of a uniform point of the sphere in d+2 dimensions; Barthe et al. A
+///           probabilistic approach to the geometry of the l_p^n-ball. Ann. Probab. 33(2), 2005.
 void generate(const GenerateOptions& options, const std::function<void(const PointView&)>& take_block);
 
 /// All rows at once, as doubles (with float32: rounded to float). `header` names family and parameters.

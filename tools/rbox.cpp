@@ -70,8 +70,7 @@ void scale(std::vector<double>& row, std::size_t count, double factor) {
 // Distance of the rim's plane from the centre of the sphere a lens is cut from.
 double lens_base(const RboxCommand& c) { return c.lens_radius * std::cos(std::asin(1.0 / c.lens_radius)); }
 
-// A lens is two caps of a sphere of radius n that meet in the unit sphere (or cube) of the first d-1
-// coordinates.
+// A lens is two caps of a sphere of radius n that meet in the unit sphere (or cube) of the first d-1 axes.
 void draw_lens_point(const RboxCommand& c, std::vector<double>& row, Stream& stream) {
   const std::size_t flat = c.dimension - 1;
   const double gap = c.has_gap ? c.gap : 1.0;

@@ -14,21 +14,19 @@ namespace ndhull {
 /// 'z' integers; with 'h' the layout of cdd).
 ///
 /// Families  plain cube, Wn, s, x, y, Ln, Ln s, Zn, Zn s (both with Gn), r (polygon, lens outline in 2-d;
-/// cone
-///           and lens in 3-d; simplex with x or y), l, Mn,m,r, c and d (both with Gn), and Cn,r,m Pn,.. On Bn
-///           z n h Dn t tn with them.
+///           cone and lens in 3-d; simplex with x or y), l, Mn,m,r, c and d (both with Gn), and with them
+///           Cn,r,m Pn,.. On Bn z n h Dn t tn.
 /// Seed      'tn' gives it; 't' takes the time and writes it into the header; otherwise a hash of the
-/// command,
-///           so that words are what matters: blanks between them are not (they are joined by one).
+///           words, joined by one blank.
 /// Throws    Error kUsage naming the argument: what rbox refuses, and what is not reproduced, namely
 ///           * a command of more than 180 characters (rbox cuts it), a command that starts its self-test
-///             (`D4` alone), words quoted by the shell, a lone 't' given twice or as '-t';
-///           * 'y' with s, l, L, M or Z, 'x' with Z or y, 'l' or 'M' with Z, 'M' with r: rbox lets one win;
+///             (`D4` alone), words quoted by the shell, 't' without a number twice or as '-t';
+///           * 'y' with s, l, L, M or Z, 'x' with Z or y, 'l' or 'M' with Z, 'M' with r: one of them wins;
 ///           * 'M' without a number, 'P' and its numbers with a blank between;
 ///           * numbers it would overflow, hexadecimal ones, more than 2^31-1 points, 'c' above 26-d,
-///           coordinates
-///             that do not fit an int with 'z', and sets that hold NaN (`1 l`).
-/// Not promised  the last digit of r, l and L on another C library than glibc: they use its sin, cos and asin.
+///             coordinates that do not fit an int with 'z', sets that hold NaN (`1 l`).
+/// Not promised  the last digit of r, l and L with another C library than glibc: they use its sine, cosine
+///           and arc sine.
 /// Cost      O(points x dimension); text and numbers of the whole set are held in memory.
 std::string rbox_text(std::string_view arguments);
 

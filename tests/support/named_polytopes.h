@@ -18,8 +18,7 @@ struct NamedPolytope {
   std::size_t rank = 0;  ///< affine dimension of the points
   std::uint64_t facets = 0;
   std::size_t vertices = 0;  ///< rows that are vertices; no row is given twice
-  std::optional<double>
-      volume;  ///< [rank-dimensional volume], relative error of a few 2^-53; none: not known here
+  std::optional<double> volume;  ///< of dimension rank, relative error of a few 2^-53; none: not known here
 };
 
 /// Corners of [-1, 1]^d: 2 d facets.
@@ -35,12 +34,12 @@ NamedPolytope cell_600();
 NamedPolytope cell_120();
 /// All orders of 1 .. n: n! vertices in n coordinates, rank n-1, 2^n - 2 facets. Precondition: n >= 2.
 NamedPolytope permutahedron(std::size_t n);
-/// The n x n permutation matrices: n^2 coordinates, rank (n-1)^2, n^2 facets (2 for n = 2). Precondition: n
-/// >= 2.
+/// The n x n permutation matrices: n^2 coordinates, rank (n-1)^2, n^2 facets (2 for n = 2).
+/// Precondition: n >= 2.
 NamedPolytope birkhoff(std::size_t n);
-/// n points of the curve (cos t, sin t, cos 2t, ..) or (t, t^2, .., t^d). Precondition: n > d; d even for the
-/// first. The moment curve is rounded: in high dimensions with many points doubles no longer hold the facets
-/// apart.
+/// n points of the curve (cos t, sin t, cos 2t, ..) or (t, t^2, .., t^d). Precondition: n > d; d even for
+/// the first. The moment curve is rounded: with many points in high dimensions doubles no longer hold its
+/// facets apart.
 NamedPolytope cyclic_trigonometric(std::size_t n, std::size_t d);
 NamedPolytope moment_curve(std::size_t n, std::size_t d);
 /// {0, .., side-1}^d: 2 d facets, 2^d vertices among side^d points. Precondition: side >= 2.
@@ -56,8 +55,8 @@ NamedPolytope product_of_simplices(std::size_t a, std::size_t b);
 
 /// Facets of the cyclic polytope with n vertices in d dimensions, the most that n points can have.
 /// Precondition: n > d >= 1 and the result fits.
-/// Source  Gale. Neighborly and cyclic polytopes. Proc. Symp. Pure Math. 7, 1963; McMullen. Mathematika 17,
-/// 1970.
+/// Source  Gale. Neighborly and cyclic polytopes. Proc. Symp. Pure Math. 7, 1963. McMullen. The maximum
+///         numbers of faces of a convex polytope. Mathematika 17, 1970.
 std::uint64_t cyclic_facet_count(std::uint64_t n, std::uint64_t d);
 
 /// One of each kind above, small enough for a property test: at most 720 points, at most 16-d in rank.
