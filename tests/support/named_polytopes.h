@@ -17,7 +17,7 @@ struct NamedPolytope {
   PointSet points;
   std::size_t rank = 0;  ///< affine dimension of the points
   std::uint64_t facets = 0;
-  std::size_t vertices = 0;  ///< rows that are vertices; no row is given twice
+  std::size_t vertices = 0;      ///< rows that are vertices; no row is given twice
   std::optional<double> volume;  ///< of dimension rank, relative error of a few 2^-53; none: not known here
 };
 
