@@ -60,6 +60,7 @@ using Edge = std::pair<PointId, PointId>;  // tail, head
 std::vector<PointId> chain(std::vector<Edge> edges) {
   std::sort(edges.begin(), edges.end());
   std::vector<PointId> heads;
+  heads.reserve(edges.size());
   for (const Edge& edge : edges) heads.push_back(edge.second);
   std::sort(heads.begin(), heads.end());
   const auto same_tail = [](const Edge& a, const Edge& b) { return a.first == b.first; };

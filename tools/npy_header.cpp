@@ -74,7 +74,7 @@ class Reader {
     if (quote != '\'' && quote != '"') fail("no quoted string");
     const std::size_t close = text_.find(quote, at_ + 1);
     if (close == std::string_view::npos) fail("a string without end");
-    const std::string value(text_.substr(at_ + 1, close - at_ - 1));
+    std::string value(text_.substr(at_ + 1, close - at_ - 1));
     at_ = close + 1;
     return value;
   }

@@ -23,10 +23,10 @@ static_assert(std::endian::native == std::endian::little, ".npy data are used as
 ///
 /// Adding one to the exponent field carries into the sign bit exactly when the field is all ones. The or of
 /// a block says whether one is in it: no branch for each element, and compilers vectorize it.
-template <class Bits, int kMantissaBits>
+template <class Bits, int MantissaBits>
 std::size_t find_non_finite(const char* data, std::size_t count) {
   constexpr int kSignBit = static_cast<int>(sizeof(Bits)) * 8 - 1;
-  constexpr Bits kOne = Bits{1} << kMantissaBits;
+  constexpr Bits kOne = Bits{1} << MantissaBits;
   constexpr Bits kExponent = (Bits{1} << kSignBit) - kOne;
   constexpr std::size_t kBlock = 4096;  // elements: well inside the first-level cache
   const auto carry = [data](std::size_t index) {

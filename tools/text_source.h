@@ -53,8 +53,8 @@ inline const char* skip_blanks(const char* place, const char* end) {
 }
 inline bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
-/// Is `word` a spelling of NaN or infinity (nan, -inf, Infinity, 1.#IND, ...), in quotes or not?
-bool names_non_finite(std::string_view word);
+/// Is `text` a spelling of NaN or infinity (nan, -inf, Infinity, 1.#IND, ...), in quotes or not?
+bool names_non_finite(std::string_view text);
 
 /// `text` for a one-line message: cut at 40 characters, control characters as question marks.
 std::string printable(std::string_view text);
