@@ -13,7 +13,7 @@ using PlaneSource = std::function<void(std::size_t index, double* row)>;
 
 /// Writes `count` planes.
 ///
-/// Formats   .ine  H-representation of cdd and lrs: rows -offset -normal, real numbers
+/// Formats   .ine  H-representation, rows -offset -normal, real numbers: for cdd; for lrs by its float2rat
 ///           .npy  float64, rows normal offset
 ///           else  Qhull text as option `n` prints it: dimension + 1, count, rows normal offset
 ///           All of them read back as the same doubles: text has 17 digits, one more than Qhull prints,
