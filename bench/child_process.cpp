@@ -1,0 +1,150 @@
+// The child sends its result as CBOR through a pipe. End of file on the pipe is its end; the pipe is polled
+// against the time limit, so that neither a hanging child nor a long answer blocks us.
+#include "bench/child_process.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+#include <vector>
+
+namespace ndhull {
+namespace {
+
+double clock_seconds(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+void send_all(int descriptor, const std::vector<std::uint8_t>& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t count = write(descriptor, bytes.data() + sent, bytes.size() - sent);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) _exit(1);
+    sent += static_cast<std::size_t>(count);
+  }
+}
+
+[[noreturn]] void run_child(const std::function<nlohmann::json()>& work, int descriptor) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a measurement nobody waits for would disturb the next one
+#endif
+  nlohmann::json answer;
+  try {
+    answer["values"] = work();
+  } catch (const std::exception& error) {
+    answer["error"] = error.what();
+  }
+  send_all(descriptor, nlohmann::json::to_cbor(answer));
+  _exit(0);
+}
+
+// Reads to the end of file; false when `max_seconds` passed before.
+bool receive_all(int descriptor, double max_seconds, std::vector<std::uint8_t>& bytes) {
+  const Stopwatch watch;
+  std::array<std::uint8_t, 4096> block;
+  while (true) {
+    int wait_ms = -1;
+    if (max_seconds > 0.0) {
+      const double left = max_seconds - watch.wall_seconds();
+      if (left <= 0.0) return false;
+      wait_ms = static_cast<int>(std::min(std::ceil(left * 1000.0), 1e6));
+    }
+    pollfd waited{descriptor, POLLIN, 0};
+    const int ready = poll(&waited, 1, wait_ms);
+    if (ready < 0 && errno != EINTR) fail("poll");
+    if (ready <= 0) continue;
+    const ssize_t count = read(descriptor, block.data(), block.size());
+    if (count < 0 && errno != EINTR) fail("read");
+    if (count == 0) return true;
+    if (count > 0) bytes.insert(bytes.end(), block.begin(), block.begin() + count);
+  }
+}
+
+void interpret(int status, const std::vector<std::uint8_t>& bytes, ChildResult& result) {
+  if (WIFSIGNALED(status)) {
+    result.end = ChildResult::End::kCrashed;
+    result.reason = fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    return;
+  }
+  const nlohmann::json answer = nlohmann::json::from_cbor(bytes, true, false);
+  if (answer.is_discarded() || (!answer.contains("values") && !answer.contains("error"))) {
+    result.reason = fmt::format("ended with exit code {} and no result", WEXITSTATUS(status));
+  } else if (answer.contains("error")) {
+    result.reason = answer["error"].get<std::string>();
+  } else {
+    result.end = ChildResult::End::kDone;
+    result.values = answer["values"];
+  }
+}
+
+}  // namespace
+
+ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) fail("pipe");
+  std::fflush(nullptr);  // or the child would print what is in the buffers once more
+  const pid_t child = fork();
+  if (child < 0) fail("fork");
+  if (child == 0) {
+    close(ends[0]);
+    run_child(work, ends[1]);
+  }
+  close(ends[1]);
+
+  std::vector<std::uint8_t> bytes;
+  const bool in_time = receive_all(ends[0], max_seconds, bytes);
+  close(ends[0]);
+  if (!in_time) kill(child, SIGKILL);
+  int status = 0;
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0) {
+    if (errno != EINTR) fail("wait4");
+  }
+
+  ChildResult result;
+  result.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss);
+#ifndef __APPLE__
+  result.peak_bytes *= 1024;  // in KiB elsewhere
+#endif
+  if (in_time) {
+    interpret(status, bytes, result);
+  } else {
+    result.end = ChildResult::End::kTimeLimit;
+    result.reason = fmt::format("stopped after {} s", max_seconds);
+  }
+  return result;
+}
+
+std::uint64_t resident_bytes() {
+  unsigned long long total_pages = 0, resident_pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  const bool read = std::fscanf(file, "%llu %llu", &total_pages, &resident_pages) == 2;
+  std::fclose(file);
+  return read ? resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+Stopwatch::Stopwatch()
+    : wall_start_(clock_seconds(CLOCK_MONOTONIC)), cpu_start_(clock_seconds(CLOCK_PROCESS_CPUTIME_ID)) {}
+double Stopwatch::wall_seconds() const { return clock_seconds(CLOCK_MONOTONIC) - wall_start_; }
+double Stopwatch::cpu_seconds() const { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_start_; }
+
+}  // namespace ndhull

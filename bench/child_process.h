@@ -1,0 +1,44 @@
+// A measurement in a process of its own: its peak memory is its own, and it may crash or be stopped.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace ndhull {
+
+/// What became of one measurement.
+struct ChildResult {
+  enum class End { kDone, kFailed, kCrashed, kTimeLimit };
+  End end = End::kFailed;
+  std::string reason;            ///< not for kDone: the message, the signal, or the limit; one line
+  nlohmann::json values;         ///< kDone: what the work returned
+  std::uint64_t peak_bytes = 0;  ///< largest resident memory of the child, with what it shares with us
+  bool done() const { return end == End::kDone; }
+};
+
+/// Runs `work` in a forked child, waits for it, and returns what it returned.
+///
+/// Failure   an exception of `work` is kFailed with its message; a signal is kCrashed; more than
+///           `max_seconds` of wall clock (0: no limit) is kTimeLimit, and the child is killed.
+/// Requires  that this process has one thread: a forked child has only the thread that called fork.
+/// Throws    std::system_error when no process can be made.
+/// Not promised  destructors: the child ends without running those of static objects.
+ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds);
+
+/// [bytes] Resident memory of this process now; 0 where the system does not say.
+std::uint64_t resident_bytes();
+
+/// Wall clock and processor time (all threads) since construction.
+class Stopwatch {
+ public:
+  Stopwatch();
+  double wall_seconds() const;
+  double cpu_seconds() const;
+
+ private:
+  double wall_start_, cpu_start_;
+};
+
+}  // namespace ndhull

@@ -1,0 +1,19 @@
+// The commands of ndhull-bench, one file each. Each adds itself to the program, with its options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+namespace ndhull {
+
+/// ndhull failed on an input of the list. Thrown after the table is complete; the program then ends with 3.
+struct EngineFailed : std::runtime_error {
+  EngineFailed() : std::runtime_error("a run of ndhull failed") {}
+};
+
+/// `peers`: ndhull and Qhull side by side.
+void add_peers_command(CLI::App& app);
+/// `phases`: where the time of ndhull goes.
+void add_phases_command(CLI::App& app);
+
+}  // namespace ndhull
