@@ -24,7 +24,7 @@ struct BenchCase {
   std::string name;            ///< an rbox command, or a polytope with its parameter
   bool is_sphere_set = false;  ///< one of those the geometric mean is over
   bool unit_cube = false;      ///< widths measured after scaling to the unit cube; Qhull gets QbB
-  double qhull_seconds = 0.0;  ///< [seconds] what Qhull 2020.2 took once on one core of about 3 GHz
+  double qhull_seconds = 0.0;  ///< [seconds] that Qhull 2020.2 takes; half of it on a fast core
   std::function<BenchInput(const std::string& data_folder)> load;
 
   /// Runs of Qhull above this are made once, or left out on request.
