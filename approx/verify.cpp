@@ -1,0 +1,183 @@
+// Topology first: the other claims follow its ids. Then facet by facet, then all points against all outer
+// planes, then the hull's own numbers; in exact mode the orientations of simplices as well.
+
+#include "approx/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "approx/plane_scan.h"
+#include "approx/verify_facets.h"
+#include "core/complex_check.h"
+
+namespace ndhull {
+namespace {
+
+/// Every stride-th outer plane.
+class OuterPlanes : public PlaneSource {
+ public:
+  OuterPlanes(const HullClaims& hull, std::size_t stride) : hull_(hull), stride_(stride) {}
+  std::size_t count() const override { return (hull_.facet_count() + stride_ - 1) / stride_; }
+  CentredPlane plane(std::size_t row) const override {
+    const FacetId facet{static_cast<std::uint32_t>(row * stride_)};
+    return hull_.plane_at(facet, hull_.outer_offset(facet));
+  }
+
+ private:
+  const HullClaims& hull_;
+  std::size_t stride_;
+};
+
+void scan_outer(const PointView& points, const HullClaims& hull, std::size_t point_stride,
+                std::size_t facet_stride, DoubtfulSign doubtful, Verification& result) {
+  PointView some = points;
+  some.rows = (points.rows + point_stride - 1) / point_stride;
+  some.row_stride *= point_stride;
+  const PlaneScan scan = scan_planes(some, OuterPlanes(hull, facet_stride), doubtful);
+  if (scan.pairs == 0) return;
+  ClaimRecord& record = result.of(Claim::kOuter);
+  const double excess = scan.worst.distance;
+  result.largest_outer_excess = record.checks == 0 ? excess : std::max(result.largest_outer_excess, excess);
+  result.refined += scan.refined;
+  record.checks += scan.pairs;
+  if (scan.above == 0) return;
+  if (record.failures == 0) {
+    const FacetId facet{static_cast<std::uint32_t>(scan.worst.plane * facet_stride)};
+    const double claimed = hull.outer_offset(facet) * hull.input_per_length_unit(facet);
+    record.first_failure = "point " + std::to_string(scan.worst.point * point_stride) +
+                           " is above the outer plane of facet " + std::to_string(facet.value) + ": " +
+                           found_and_claimed(excess + claimed, claimed);
+  }
+  record.failures += scan.above;
+  record.worst_excess = std::max(record.worst_excess, excess);
+}
+
+void verify_outer(const PointView& points, const HullClaims& hull, VerifyMode mode, Verification& result) {
+  const double work = static_cast<double>(points.rows) * static_cast<double>(points.dimension) *
+                      static_cast<double>(hull.facet_count());
+  if (mode == VerifyMode::kExact || work <= max_work) {
+    const auto doubtful =
+        mode == VerifyMode::kExact ? DoubtfulSign::kExact : DoubtfulSign::kExtendedThenExact;
+    scan_outer(points, hull, 1, 1, doubtful, result);
+    return;
+  }
+  const auto stride = static_cast<std::size_t>(std::ceil(work / (max_work / 2)));
+  scan_outer(points, hull, stride, 1, DoubtfulSign::kExtendedThenExact, result);
+  scan_outer(points, hull, 1, stride, DoubtfulSign::kExtendedThenExact, result);
+  result.of(Claim::kOuter).complete = false;
+}
+
+void verify_numbers(const HullClaims& hull, ClaimRecord& record) {
+  const HullNumbers numbers = hull.numbers();
+  double outer = 0.0, inner = 0.0, width = 0.0;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const FacetId facet{row};
+    outer = std::max(outer, hull.outer_offset(facet));
+    inner = std::min(inner, hull.inner_offset(facet));
+    width = std::max(width, hull.outer_offset(facet) - hull.inner_offset(facet));
+    const bool signs = hull.outer_offset(facet) >= 0.0 && hull.inner_offset(facet) <= 0.0;
+    record_check(record, signs && std::isfinite(hull.outer_offset(facet) - hull.inner_offset(facet)), [&] {
+      return "facet " + std::to_string(row) +
+             " has an outer offset below or an inner offset above 0: outer " +
+             found_and_claimed(hull.outer_offset(facet), 0.0);
+    });
+  }
+  const auto expect = [&](const char* name, double found, double claimed, bool holds) {
+    record_check(record, holds, [&] { return std::string(name) + ": " + found_and_claimed(found, claimed); });
+  };
+  expect("largest outer offset", outer, numbers.max_outer_offset, outer == numbers.max_outer_offset);
+  expect("lowest inner offset", inner, numbers.min_inner_offset, inner == numbers.min_inner_offset);
+  // The difference rounds; a claim may be rounded up, never down.
+  const bool width_holds =
+      numbers.max_facet_width >= width && numbers.max_facet_width <= std::nextafter(width, HUGE_VAL);
+  expect("largest facet width", width, numbers.max_facet_width, width_holds);
+  if (numbers.rank < 2) return;
+  expect("volume, expected above 0", 0.0, numbers.volume,
+         numbers.volume > 0.0 && std::isfinite(numbers.volume));
+  expect("area, expected above 0", 0.0, numbers.area, numbers.area > 0.0 && std::isfinite(numbers.area));
+}
+
+}  // namespace
+
+std::string_view to_string(Claim claim) {
+  switch (claim) {
+    case Claim::kComplex: return "complex";
+    case Claim::kFacets: return "facets";
+    case Claim::kVertices: return "vertices";
+    case Claim::kNormals: return "normals";
+    case Claim::kOuter: return "outer";
+    case Claim::kInner: return "inner";
+    case Claim::kRidges: return "ridges";
+    case Claim::kInterior: return "interior";
+    case Claim::kNumbers: return "numbers";
+    case Claim::kOrientation: return "orientation";
+    case Claim::kCount: break;
+  }
+  return "";
+}
+
+bool Verification::passed() const {
+  return std::all_of(claims.begin(), claims.end(),
+                     [](const ClaimRecord& record) { return record.failures == 0; });
+}
+
+bool Verification::complete() const {
+  return std::all_of(claims.begin(), claims.end(), [](const ClaimRecord& record) { return record.complete; });
+}
+
+std::string Verification::first_failure() const {
+  for (std::size_t row = 0; row < claims.size(); ++row) {
+    if (claims[row].failures == 0) continue;
+    return std::string(to_string(static_cast<Claim>(row))) + ": " + claims[row].first_failure;
+  }
+  return "";
+}
+
+void join_records(ClaimRecord& a, const ClaimRecord& b) {
+  if (a.failures == 0 && b.failures > 0) a.first_failure = b.first_failure;
+  a.checks += b.checks;
+  a.failures += b.failures;
+  a.complete = a.complete && b.complete;
+  a.worst_excess = std::max(a.worst_excess, b.worst_excess);
+}
+
+std::string found_and_claimed(double found, double claimed) {
+  char text[96];
+  std::snprintf(text, sizeof text, "found %.17g, claimed %.17g", found, claimed);
+  return text;
+}
+
+Verification verify_claims(const PointView& points, const HullClaims& hull, VerifyMode mode,
+                           double max_outer_work) {
+  Verification result;
+  result.mode = mode;
+  const HullNumbers numbers = hull.numbers();
+  ClaimRecord& numbers_record = result.of(Claim::kNumbers);
+  record_check(numbers_record, numbers.dimension == points.dimension && numbers.point_count == points.rows,
+               [&] {
+                 return "the hull is of " + std::to_string(numbers.point_count) + " points in " +
+                        std::to_string(numbers.dimension) + "-d: found " + std::to_string(points.rows) +
+                        " points in " + std::to_string(points.dimension) + "-d";
+               });
+  if (numbers_record.failures > 0 || numbers.rank == 0) return result;
+
+  const ComplexCheck complex = check_complex(hull.simplices());
+  ClaimRecord& complex_record = result.of(Claim::kComplex);
+  complex_record.checks = complex.simplices;
+  complex_record.failures = complex.problems;
+  complex_record.first_failure = complex.first_problem;
+
+  const auto doubtful = mode == VerifyMode::kExact ? DoubtfulSign::kExact : DoubtfulSign::kExtendedThenExact;
+  verify_facets(points, hull, doubtful, result);
+  verify_outer(points, hull, mode, max_outer_work, result);
+  verify_numbers(hull, numbers_record);
+  const bool ids_are_sound =
+      result.of(Claim::kComplex).failures == 0 && result.of(Claim::kFacets).failures == 0;
+  if (mode == VerifyMode::kExact && ids_are_sound && numbers.rank == numbers.dimension && numbers.rank >= 2) {
+    verify_orientation(points, hull, result);
+  }
+  return result;
+}
+
+}  // namespace ndhull

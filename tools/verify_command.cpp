@@ -1,0 +1,60 @@
+#include "tools/verify_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/error.h"
+#include "tools/halfspace_reader.h"
+#include "tools/point_reader.h"
+
+namespace ndhull {
+
+PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads) {
+  if (points_path == "-" && planes_path == "-") {
+    throw Error(ErrorCode::kUsage,
+                "verify: found - for both, expected one of them in a file: standard input is read once");
+  }
+  const PointFile points = read_points(points_path);
+  const HalfspaceFile planes = read_halfspaces(planes_path);
+  if (planes.dimension != points.view().dimension) {
+    throw Error(
+        ErrorCode::kUsage,
+        fmt::format("{}: found planes in {}-d, expected {}-d as the points of {}; give the planes of these "
+                    "points",
+                    planes.path, planes.dimension, points.view().dimension, points.path));
+  }
+  return check_planes(points.view(), planes.rows, threads);
+}
+
+std::string describe(const PlaneCheck& check) {
+  if (check.pairs == 0) return "nothing to check: no planes\n";
+  return fmt::format(
+      "worst: point {} plane {} distance {:.17g}\n{}: {} of {} pairs of point and plane above\n",
+      check.worst_point.value, check.worst_plane, check.worst_distance, check.above == 0 ? "pass" : "fail",
+      check.above, check.pairs);
+}
+
+void add_verify_command(CLI::App& app, int& exit_code) {
+  struct Arguments {
+    std::string points, planes;
+    unsigned threads = 0;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command =
+      app.add_subcommand("verify", "Is every point below every plane? Exit code 2 if not.");
+  command->add_option("POINTS", arguments->points, "points: a file, or - for standard input")->required();
+  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or -")->required();
+  command->add_option("--threads", arguments->threads,
+                      "0: all cores; the result is the same for every number");
+  command->footer(
+      "Numbers are taken as the doubles they are read to; a point on a plane is not above it.\n"
+      "Example: ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy");
+  command->callback([arguments, &exit_code] {
+    const PlaneCheck check = verify_files(arguments->points, arguments->planes, arguments->threads);
+    fmt::print("{}", describe(check));
+    exit_code = check.above == 0 ? 0 : 2;
+  });
+}
+
+}  // namespace ndhull
