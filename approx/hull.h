@@ -11,7 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "approx/length_unit.h"
 #include "core/huge_array.h"
+#include "core/id_rows.h"
 #include "core/ids.h"
 #include "core/points.h"
 #include "core/simplicial_complex.h"
@@ -83,7 +85,6 @@ class Hull {
   std::vector<double> interior_point;      ///< dimension numbers, input units, strictly inside the hull
   std::vector<double> reference;           ///< dimension numbers: origin of the certified planes
   std::vector<double> subspace_equations;  ///< (dimension - rank) rows of dimension + 1: normal, offset
-  std::vector<double> unit_cube_extents;   ///< with unit_cube: the extent of each column; otherwise empty
 
   std::vector<PointId> vertices;  ///< ascending; no redundant ones
   SimplicialComplex simplices;    ///< compacted; planes are the growth's dual planes or empty
@@ -98,6 +99,9 @@ class Hull {
   std::uint64_t points_outside = 0;
   HullStatistics statistics;
 
+  /// With unit_cube: the extent of each column; otherwise empty.
+  const std::vector<double>& unit_cube_extents() const { return length_unit_.extents(); }
+
   std::size_t facet_count() const { return facet_count_; }
   std::size_t simplicial_facet_count() const { return simplicial_facet_count_; }
 
@@ -110,7 +114,8 @@ class Hull {
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
 
-  /// Sorted ids; exactly rank of them for a simplicial facet in the order of its simplex.
+  /// Of a simplicial facet the rank ids in the order of its simplex, neighbour k opposite vertex k; of a merged
+  /// one sorted ids.
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
@@ -119,17 +124,14 @@ class Hull {
 
  private:
   friend class HullBuilder;
-  /// Rows of ids of different lengths in one array.
-  struct Rows {
-    std::vector<std::uint32_t> begin;  // facet_count + 1
-    std::vector<std::uint32_t> values;
-  };
   std::size_t facet_count_ = 0;
   std::size_t simplicial_facet_count_ = 0;
   bool merged_ = false;  // false: facet f is simplex f, and the tables of the complex serve
   HugeArray<double> normals_, centred_offsets_, outer_, inner_, areas_;
-  Rows facet_vertices_, facet_neighbours_, facet_simplices_;
+  IdRows facet_vertices_, facet_neighbours_, facet_simplices_;
   std::vector<FacetId> facet_of_simplex_;
+  std::vector<SimplexId> own_ids_;  // not merged: 0, 1, 2, ...
+  LengthUnit length_unit_;
 };
 
 /// Computes the convex hull of `points`.

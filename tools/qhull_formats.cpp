@@ -67,7 +67,7 @@ struct InputOffsets {
 
 InputOffsets input_offsets(const Hull& hull) {
   // Without a unit cube the certified extremes are in input units already.
-  if (hull.unit_cube_extents.empty()) return {hull.max_outer_offset, hull.min_inner_offset};
+  if (hull.unit_cube_extents().empty()) return {hull.max_outer_offset, hull.min_inner_offset};
   InputOffsets offsets;
   for (std::size_t row = 0; row < hull.facet_count(); ++row) {
     const FacetId facet{static_cast<std::uint32_t>(row)};

@@ -1,0 +1,43 @@
+// Delayed coplanar merging (Qhull's Qx taken to its end): simplices that are not clearly convex become one
+// facet with one plane. Growth never merges; this runs once on the finished complex.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/id_rows.h"
+#include "core/ids.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Clusters of simplices: facet f is the simplices of row f, connected, with one plane.
+struct FacetClusters {
+  std::vector<FacetId> facet_of_simplex;
+  IdRows simplices;            ///< ascending in each row
+  std::vector<double> planes;  ///< facets x rank: dual vertex of the facet's plane, in the frame
+  std::size_t facet_count() const { return simplices.begin.size() - 1; }
+};
+
+/// Groups the simplices into facets.
+///
+/// Method    A ridge is flat when the opposite vertex of either side is less than `tolerance` below the other's
+///           plane. Seeds are taken by area, largest first: the largest simplex of a flat has its best plane. A
+///           facet grows from its seed over neighbours whose vertices are within the tolerance of the seed's
+///           plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
+///           squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
+/// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
+/// Returns   one facet a simplex, in order, when no ridge is flat.
+/// Cost      O(s rank^2) for s simplices, plus the fits.
+FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
+                             std::span<const double> determinants, double tolerance);
+
+/// The points that are vertices of the merged hull: those whose facets' normals span all dimensions. Points
+/// in the middle of a facet, ridge or edge are in the complex but are no vertices.
+/// Returns one flag a point.
+std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetClusters& facets,
+                                std::size_t point_count);
+
+}  // namespace ndhull

@@ -1,0 +1,189 @@
+#include "approx/facet_table.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/plane_kernels.h"
+
+namespace ndhull {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using ConstRows = Eigen::Map<const RowMatrix>;
+
+ConstRows rows_of(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+  return {values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns)};
+}
+
+/// |det| of the frame's map on the subspace of the data: frame volume per input volume.
+double volume_scale(const Frame& frame) {
+  const ConstRows map = rows_of(frame.map, frame.rank, frame.dimension);
+  if (frame.rank == frame.dimension) return std::abs(RowMatrix(map).determinant());
+  const ConstRows basis = rows_of(frame.basis, frame.rank, frame.dimension);
+  return std::abs(RowMatrix(map * basis.transpose()).determinant());
+}
+
+/// Unit normals in input coordinates of planes in the frame. `out` may be the same memory as `planes` when
+/// rank equals dimension.
+void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out) {
+  const std::size_t rank = frame.rank, dimension = frame.dimension;
+  RowMatrix to_input = rows_of(frame.map, rank, dimension);
+  if (rank < dimension) {  // keep the part of the normal that lies in the subspace
+    const ConstRows basis = rows_of(frame.basis, rank, dimension);
+    to_input = (to_input * basis.transpose() * basis).eval();
+  }
+  constexpr std::size_t kBlock = 256;
+  RowMatrix block;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t used = std::min(kBlock, count - begin);
+    const Eigen::Map<const RowMatrix> in(planes + begin * rank, static_cast<Eigen::Index>(used),
+                                         static_cast<Eigen::Index>(rank));
+    if (frame.is_diagonal && rank == dimension) {
+      block = in * to_input.diagonal().asDiagonal();
+    } else {
+      block.noalias() = in * to_input;
+    }
+    for (std::size_t row = 0; row < used; ++row) {
+      const auto at = static_cast<Eigen::Index>(row);
+      // Scaled first: columns of very different scale can overflow the squares.
+      const double largest = block.row(at).lpNorm<Eigen::Infinity>();
+      block.row(at) /= largest;
+      block.row(at) /= block.row(at).norm();
+      std::copy_n(block.row(at).data(), dimension, out + (begin + row) * dimension);
+    }
+  }
+}
+
+/// Smallest and largest product of each merged facet's normal with its simplices' vertices.
+void cluster_dots(const SimplicialComplex& complex, const FacetClusters& clusters, const CertificatePoints& points,
+                  const double* normals, std::span<double> low, std::span<double> high) {
+  const std::size_t dimension = points.dimension;
+  std::vector<std::uint32_t> last_facet(points.row_of_point.size(), FacetId::kNone);
+  for (std::uint32_t facet = 0; facet < clusters.facet_count(); ++facet) {
+    double smallest = HUGE_VAL, largest = -HUGE_VAL;
+    const double* normal = normals + facet * dimension;
+    for (const std::uint32_t simplex : clusters.simplices.row(facet)) {
+      for (const PointId id : complex.vertices(SimplexId{simplex})) {
+        if (last_facet[id.value] == facet) continue;
+        last_facet[id.value] = facet;
+        const double* point = points.rows.data() + std::size_t{points.row_of_point[id.value]} * dimension;
+        double dot = 0.0;
+        for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
+        smallest = std::min(smallest, dot);
+        largest = std::max(largest, dot);
+      }
+    }
+    low[facet] = smallest;
+    high[facet] = largest;
+  }
+}
+
+/// Bound on the error of a computed sum of `terms` products of the given size: gamma_terms * size.
+double sum_error(std::size_t terms, double size) {
+  const double rounding = static_cast<double>(terms) * 0x1p-53;
+  return rounding / (1.0 - rounding) * size;
+}
+
+}  // namespace
+
+CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
+                                            const std::vector<bool>& wanted) {
+  constexpr double kFar = 4.0;  // extents: two bits of the data's digits are worth a plane at the origin
+  CertificatePoints result;
+  const std::size_t dimension = points.dimension;
+  result.dimension = dimension;
+  result.reference.assign(dimension, 0.0);
+  result.largest_input.resize(dimension);
+  bool is_far = false;
+  for (std::size_t k = 0; k < dimension; ++k) {
+    result.largest_input[k] = std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k]));
+    const double extent = frame.column_max[k] - frame.column_min[k];
+    is_far = is_far || (extent > 0.0 && result.largest_input[k] > kFar * extent);
+  }
+  if (is_far) result.reference = frame.centre;
+  result.largest.assign(dimension, 0.0);
+  result.row_of_point.assign(points.rows, 0);
+  const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+  result.rows.reserve(count * dimension);
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    if (!wanted[row]) continue;
+    result.row_of_point[row] = static_cast<std::uint32_t>(result.rows.size() / dimension);
+    for (std::size_t k = 0; k < dimension; ++k) {
+      const double x = points.at(row, k) - result.reference[k];
+      result.rows.push_back(x);
+      result.largest[k] = std::max(result.largest[k], std::abs(x));
+    }
+  }
+  return result;
+}
+
+FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clusters, const Frame& frame,
+                            const CertificatePoints& points, std::span<const double> determinants,
+                            const LengthUnit& unit, double covered_gauge) {
+  const std::size_t dimension = frame.dimension;
+  const std::size_t count = clusters != nullptr ? clusters->facet_count() : complex.row_count;
+  FacetTable table;
+  if (clusters == nullptr && frame.rank == dimension) {
+    table.normals = std::move(complex.planes);
+    map_normals(frame, table.normals.data(), count, table.normals.data());
+  } else {
+    table.normals = HugeArray<double>(count * dimension);
+    map_normals(frame, clusters != nullptr ? clusters->planes.data() : complex.planes.data(), count,
+                table.normals.data());
+    complex.planes = HugeArray<double>();
+  }
+  table.offsets = HugeArray<double>(count);
+  table.outer = HugeArray<double>(count);
+  table.inner = HugeArray<double>(count);
+  table.areas = HugeArray<double>(count);
+  const std::span<const double> normals(table.normals.data(), count * dimension);
+  const std::span<double> low(table.inner.data(), count), high(table.areas.data(), count);
+  if (clusters != nullptr) {
+    cluster_dots(complex, *clusters, points, normals.data(), low, high);
+  } else {
+    own_dots(complex, dimension, normals, points.rows, points.row_of_point, low, high);
+  }
+  const std::span<double> highest(table.outer.data(), count);
+  max_dots(dimension, normals, points.rows, highest);
+
+  const double volume_per_determinant =
+      1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    const std::span<const double> normal = normals.subspan(facet * dimension, dimension);
+    const double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
+    double size = std::abs(offset), size_input = std::abs(offset), height = -offset;
+    for (std::size_t k = 0; k < dimension; ++k) {
+      size += std::abs(normal[k]) * points.largest[k];
+      size_input += std::abs(normal[k]) * points.largest_input[k];
+      height -= normal[k] * (frame.centre[k] - points.reference[k]);
+    }
+    // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
+    const double error = sum_error(dimension + 3, size);
+    const double per_unit = 1.0 / unit.input_per_unit(normal);
+    const double outer_explicit = std::max(0.0, highest[facet] + offset + error);
+    const double outer = ((1.0 + covered_gauge) * outer_explicit + covered_gauge * height) * per_unit;
+    const double inner = std::min(0.0, low[facet] + offset - error) * per_unit;
+    table.offsets[facet] = offset;
+    table.outer[facet] = outer;
+    table.inner[facet] = inner;
+    table.max_outer = std::max(table.max_outer, outer);
+    table.min_inner = std::min(table.min_inner, inner);
+    table.max_width = std::max(table.max_width, outer - inner);
+    table.roundoff = std::max(table.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
+
+    double determinant = 0.0;
+    if (clusters == nullptr) {
+      determinant = determinants[facet];
+    } else {
+      for (const std::uint32_t simplex : clusters->simplices.row(facet)) determinant += determinants[simplex];
+    }
+    const double cone = determinant * volume_per_determinant;
+    table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
+    table.volume += cone;
+    table.area += table.areas[facet];
+  }
+  return table;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,58 @@
+// The facets of the result: planes in input units with certified outer and inner offsets, and areas.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "approx/coplanar_merge.h"
+#include "approx/length_unit.h"
+#include "core/frame.h"
+#include "core/huge_array.h"
+#include "core/points.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Points that facets are certified against, relative to the reference point.
+struct CertificatePoints {
+  std::size_t dimension = 0;
+  std::vector<double> reference;
+  std::vector<double> rows;                 ///< count x dimension: x - reference
+  std::vector<double> largest;              ///< per column: largest |x - reference|
+  std::vector<double> largest_input;        ///< per column: largest |x|
+  std::vector<std::uint32_t> row_of_point;  ///< for the points that are in `rows`
+};
+
+/// `wanted`: one flag a point of the input.
+/// The reference is the origin unless the data lie further from it than four times their extent: then planes
+/// stated at the origin would lose the digits that the data have, and the reference is the frame's centre.
+CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
+                                            const std::vector<bool>& wanted);
+
+/// One row a facet.
+struct FacetTable {
+  HugeArray<double> normals;  ///< facets x dimension, unit, outward
+  HugeArray<double> offsets;  ///< [distance, input units] at the reference
+  HugeArray<double> outer;    ///< [distance, length unit] >= 0: all certificate points are below
+  HugeArray<double> inner;    ///< [distance, length unit] <= 0: all vertices of the facet's simplices are above
+  HugeArray<double> areas;    ///< [area, input units]
+  double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, area = 0.0, volume = 0.0;
+};
+
+/// Makes planes, certificates and areas of all facets.
+///
+/// Shapes    clusters: null when every simplex is a facet of its own; then the complex's planes are consumed
+///           (turned into the normals in place where the shapes allow).
+///           covered_gauge: every input point that is no certificate point lies in the hull of those that are,
+///           scaled by 1 + this about the frame's centre.
+/// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on the
+///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
+///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
+/// Cost      facets x points x dimension fused multiply-adds.
+FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clusters, const Frame& frame,
+                            const CertificatePoints& points, std::span<const double> determinants,
+                            const LengthUnit& unit, double covered_gauge);
+
+}  // namespace ndhull

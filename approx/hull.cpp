@@ -1,0 +1,65 @@
+#include "approx/hull.h"
+
+namespace ndhull {
+namespace {
+
+template <class To>
+std::span<const To> as_ids(std::span<const std::uint32_t> values) {
+  return {reinterpret_cast<const To*>(values.data()), values.size()};
+}
+
+}  // namespace
+
+std::string_view to_string(Phase phase) {
+  switch (phase) {
+    case Phase::kGrowth: return "growth";
+    case Phase::kCertify: return "certify";
+    case Phase::kMerge: return "merge";
+    case Phase::kCount: break;
+  }
+  return "unknown";
+}
+
+std::string_view to_string(HullStatus status) {
+  switch (status) {
+    case HullStatus::kComplete: return "complete";
+    case HullStatus::kFacetLimit: return "facet_limit";
+    case HullStatus::kTimeLimit: return "time_limit";
+    case HullStatus::kMemoryLimit: return "memory_limit";
+    case HullStatus::kInterrupted: return "interrupted";
+  }
+  return "unknown";
+}
+
+double Hull::offset(FacetId facet) const {
+  // normal . x + offset = normal . (x - reference) + centred_offset
+  double offset = centred_offset(facet);
+  const auto n = normal(facet);
+  for (std::size_t k = 0; k < dimension; ++k) offset -= n[k] * reference[k];
+  return offset;
+}
+
+double Hull::input_per_length_unit(FacetId facet) const {
+  return length_unit_.input_per_unit(normal(facet));
+}
+
+std::span<const PointId> Hull::vertices_of(FacetId facet) const {
+  return merged_ ? as_ids<PointId>(facet_vertices_.row(facet.value)) : simplices.vertices(SimplexId{facet.value});
+}
+
+std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
+  if (merged_) return as_ids<FacetId>(facet_neighbours_.row(facet.value));
+  const auto neighbours = simplices.neighbours(SimplexId{facet.value});
+  return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
+}
+
+std::span<const SimplexId> Hull::simplices_of(FacetId facet) const {
+  if (merged_) return as_ids<SimplexId>(facet_simplices_.row(facet.value));
+  return {own_ids_.data() + facet.value, 1};
+}
+
+FacetId Hull::facet_of(SimplexId simplex) const {
+  return merged_ ? facet_of_simplex_[simplex.value] : FacetId{simplex.value};
+}
+
+}  // namespace ndhull

@@ -1,0 +1,56 @@
+// Small linear systems, one in each vector lane. Included once per target.
+
+#if defined(NDHULL_BLOCK_ELIMINATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NDHULL_BLOCK_ELIMINATION_INL_H_
+#undef NDHULL_BLOCK_ELIMINATION_INL_H_
+#else
+#define NDHULL_BLOCK_ELIMINATION_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::ScalableTag<double>;
+using Lane = hn::Vec<Tag>;
+
+/// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the determinant up
+/// to sign. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th ed., 3.4).
+/// Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot row in turn,
+/// which leaves the largest there. A singular system gives infinities or NaN in its lane.
+template <std::size_t D>
+HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
+  const Tag tag;
+  Lane determinant = hn::Set(tag, 1.0);
+  for (std::size_t column = 0; column < D; ++column) {
+    for (std::size_t row = column + 1; row < D; ++row) {
+      const auto larger = hn::Gt(hn::Abs(matrix[row][column]), hn::Abs(matrix[column][column]));
+      for (std::size_t k = column; k <= D; ++k) {
+        const Lane upper = matrix[column][k], lower = matrix[row][k];
+        matrix[column][k] = hn::IfThenElse(larger, lower, upper);
+        matrix[row][k] = hn::IfThenElse(larger, upper, lower);
+      }
+    }
+    determinant = hn::Mul(determinant, matrix[column][column]);
+    const Lane inverse = hn::Div(hn::Set(tag, 1.0), matrix[column][column]);
+    for (std::size_t row = column + 1; row < D; ++row) {
+      const Lane factor = hn::Neg(hn::Mul(matrix[row][column], inverse));
+      for (std::size_t k = column + 1; k <= D; ++k) matrix[row][k] = hn::MulAdd(factor, matrix[column][k], matrix[row][k]);
+    }
+  }
+  for (std::size_t row = D; row-- > 0;) {
+    Lane rest = matrix[row][D];
+    for (std::size_t k = row + 1; k < D; ++k) rest = hn::NegMulAdd(matrix[row][k], x[k], rest);
+    x[row] = hn::Div(rest, matrix[row][row]);
+  }
+  return determinant;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,242 @@
+#include "core/frame.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/error.h"
+
+namespace ndhull {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Vector = Eigen::VectorXd;
+
+constexpr double kRoundoff = 0.5 * std::numeric_limits<double>::epsilon();
+
+/// The scaling is the frame while no dual vertex of the simplex times a point is longer than this: growth
+/// then loses at most three of sixteen digits, and the frame keeps exact input exact.
+constexpr double kWellShaped = 1000.0;
+
+void check_shape(const PointView& points) {
+  if (points.dimension == 0) {
+    throw Error(ErrorCode::kDimensionTooLow, "points have 0 columns, expected at least 1; add coordinates");
+  }
+  if (points.rows == 0) {
+    throw Error(ErrorCode::kEmptyInput, "found no points, expected at least 1; give a file with rows");
+  }
+  if (points.rows >= (std::size_t{1} << 31)) {
+    throw Error(ErrorCode::kTooManyPoints, "found " + std::to_string(points.rows) +
+                                               " points, expected fewer than 2147483648; thin them out");
+  }
+}
+
+template <class Scalar>
+void find_column_ranges(const PointView& points, Frame& frame) {
+  const Scalar* data = static_cast<const Scalar*>(points.data);
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    for (std::size_t column = 0; column < points.dimension; ++column) {
+      const double x = static_cast<double>(data[row * points.row_stride + column * points.column_stride]);
+      if (!std::isfinite(x)) {
+        throw Error(ErrorCode::kNotFinite, "row " + std::to_string(row) + ", column " + std::to_string(column) +
+                                               ": found " + std::to_string(x) +
+                                               ", expected a finite number; remove or repair the row");
+      }
+      frame.column_min[column] = std::min(frame.column_min[column], x);
+      frame.column_max[column] = std::max(frame.column_max[column], x);
+    }
+  }
+}
+
+/// Power of two near 1 / extent; 0 for a constant column.
+double column_scale(double low, double high) {
+  // Half extents: high - low itself may overflow.
+  const double half = 0.5 * high - 0.5 * low;
+  if (half == 0.0) return 0.0;
+  int exponent = 0;
+  std::frexp(half, &exponent);
+  return std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
+}
+
+/// Greedy simplex in scaled coordinates z = scale (x - middle).
+struct GreedySimplex {
+  std::vector<PointId> points;
+  Matrix directions;  // rank x dimension, orthonormal, in z
+};
+
+std::uint32_t longest_row(const Matrix& rows, double& length) {
+  double best = -1.0;
+  std::uint32_t best_row = 0;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const double length_sq = rows.row(row).squaredNorm();
+    if (length_sq > best) {
+      best = length_sq;
+      best_row = static_cast<std::uint32_t>(row);
+    }
+  }
+  length = std::sqrt(std::max(best, 0.0));
+  return best_row;
+}
+
+/// `tolerance`: a distance from the span below this is the rounding of the input.
+GreedySimplex choose_simplex(Matrix residuals, double tolerance) {
+  const Eigen::Index dimension = residuals.cols();
+  GreedySimplex simplex;
+  simplex.directions.resize(dimension, dimension);
+  const Eigen::RowVectorXd mean = residuals.colwise().mean();
+  double length = 0.0;
+  {
+    Matrix from_mean = residuals.rowwise() - mean;
+    simplex.points.push_back(PointId{longest_row(from_mean, length)});
+  }
+  const Eigen::RowVectorXd first = residuals.row(simplex.points[0].value);
+  residuals.rowwise() -= first;
+  for (Eigen::Index step = 0; step < dimension; ++step) {
+    const std::uint32_t furthest = longest_row(residuals, length);
+    if (length <= tolerance) break;
+    Eigen::RowVectorXd direction = residuals.row(furthest) / length;
+    // Twice is enough (Kahan; Parlett. The Symmetric Eigenvalue Problem, 1980, sec. 6-9).
+    const auto found = simplex.directions.topRows(step);
+    direction -= (direction * found.transpose()) * found;
+    direction.normalize();
+    simplex.directions.row(step) = direction;
+    simplex.points.push_back(PointId{furthest});
+    const Vector along = residuals * direction.transpose();
+    residuals.noalias() -= along * direction;
+  }
+  simplex.directions.conservativeResize(static_cast<Eigen::Index>(simplex.points.size()) - 1, dimension);
+  return simplex;
+}
+
+/// Largest product of a dual vertex of the simplex with a point of it: 1 / relative height of the worst facet.
+double worst_shape(const Matrix& vertices) {
+  const Eigen::Index rank = vertices.cols();
+  const Eigen::RowVectorXd mean = vertices.colwise().mean();
+  const Matrix centred = vertices.rowwise() - mean;
+  const double reach = centred.rowwise().norm().maxCoeff();
+  double worst = 0.0;
+  for (Eigen::Index omitted = 0; omitted <= rank; ++omitted) {
+    Matrix facet(rank, rank);
+    for (Eigen::Index row = 0, from = 0; from <= rank; ++from) {
+      if (from != omitted) facet.row(row++) = centred.row(from);
+    }
+    const Vector dual = facet.partialPivLu().solve(Vector::Ones(rank));
+    worst = std::max(worst, dual.norm() * reach);
+    if (!std::isfinite(worst)) return std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
+/// Vertices of a regular simplex around 0 with circumradius 1: (rank + 1) x rank.
+Matrix regular_simplex(Eigen::Index rank) {
+  Matrix vertices = Matrix::Zero(rank + 1, rank);
+  for (Eigen::Index column = 0; column < rank; ++column) {
+    const double rest = 1.0 - vertices.row(column).squaredNorm();
+    vertices(column, column) = std::sqrt(std::max(rest, 0.0));
+    for (Eigen::Index row = column + 1; row <= rank; ++row) {
+      const double dot = vertices.row(row).dot(vertices.row(column));
+      vertices(row, column) = (-1.0 / static_cast<double>(rank) - dot) / vertices(column, column);
+    }
+  }
+  return vertices;
+}
+
+}  // namespace
+
+Frame fit_frame(const PointView& points) {
+  check_shape(points);
+  Frame frame;
+  const std::size_t dimension = points.dimension;
+  frame.dimension = dimension;
+  frame.column_min.assign(dimension, std::numeric_limits<double>::infinity());
+  frame.column_max.assign(dimension, -std::numeric_limits<double>::infinity());
+  if (points.type == ScalarType::kFloat64) {
+    find_column_ranges<double>(points, frame);
+  } else {
+    find_column_ranges<float>(points, frame);
+  }
+
+  Vector scale(dimension), middle(dimension);
+  double input_rounding = 1.0;  // [ratio] largest coordinate in scaled units: rounding of the input itself
+  for (std::size_t k = 0; k < dimension; ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    scale[at] = column_scale(frame.column_min[k], frame.column_max[k]);
+    middle[at] = 0.5 * frame.column_min[k] + 0.5 * frame.column_max[k];
+    input_rounding =
+        std::max(input_rounding, scale[at] * std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k])));
+  }
+  GreedySimplex simplex;
+  {
+    Matrix scaled(points.rows, dimension);
+    for (std::size_t row = 0; row < points.rows; ++row) {
+      for (std::size_t k = 0; k < dimension; ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        scaled(static_cast<Eigen::Index>(row), at) = (points.at(row, k) - middle[at]) * scale[at];
+      }
+    }
+    const double tolerance = 8.0 * static_cast<double>(dimension) * kRoundoff * (1.0 + input_rounding);
+    simplex = choose_simplex(std::move(scaled), tolerance);
+  }
+  frame.simplex = simplex.points;
+  frame.rank = simplex.points.size() - 1;
+
+  frame.centre.assign(dimension, 0.0);
+  for (const PointId id : frame.simplex) {
+    const double weight = 1.0 / static_cast<double>(frame.simplex.size());
+    for (std::size_t k = 0; k < dimension; ++k) frame.centre[k] += weight * points.at(id.value, k);
+  }
+  if (frame.rank == 0) points.copy_row(0, frame.centre.data());
+  if (frame.rank == 0) return frame;
+
+  const auto rank = static_cast<Eigen::Index>(frame.rank);
+  const auto columns = static_cast<Eigen::Index>(dimension);
+  Matrix map = Matrix::Zero(rank, columns);
+  const auto varying = static_cast<std::size_t>((scale.array() != 0.0).count());
+  if (varying == frame.rank) {
+    for (Eigen::Index column = 0, row = 0; column < columns; ++column) {
+      if (scale[column] != 0.0) map(row++, column) = scale[column];
+    }
+    frame.is_diagonal = true;
+  } else {
+    map = simplex.directions * scale.asDiagonal();
+  }
+  Matrix vertices(rank + 1, columns);
+  for (Eigen::Index row = 0; row <= rank; ++row) {
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      vertices(row, k) = points.at(frame.simplex[static_cast<std::size_t>(row)].value, static_cast<std::size_t>(k)) -
+                         frame.centre[static_cast<std::size_t>(k)];
+    }
+  }
+  const Matrix mapped = vertices * map.transpose();
+  if (worst_shape(mapped) > kWellShaped) {
+    // Edges of the simplex to those of the regular one: y = T z with T edges = regular edges.
+    const Matrix regular = regular_simplex(rank);
+    Matrix edges(rank, rank), regular_edges(rank, rank);
+    for (Eigen::Index row = 0; row < rank; ++row) {
+      edges.row(row) = mapped.row(row + 1) - mapped.row(0);
+      regular_edges.row(row) = regular.row(row + 1) - regular.row(0);
+    }
+    const Matrix transposed = edges.fullPivLu().solve(regular_edges);
+    map = (transposed.transpose() * map).eval();
+    frame.is_diagonal = false;
+  }
+  frame.map.assign(map.data(), map.data() + map.size());
+
+  if (frame.rank < dimension) {
+    // Directions of the subspace in input units: x - centre is in the span of scale^-1 directions.
+    Matrix spanned = simplex.directions;
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      spanned.col(k) *= scale[k] == 0.0 ? 0.0 : 1.0 / scale[k];
+    }
+    for (Eigen::Index row = 0; row < rank; ++row) spanned.row(row).normalize();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(spanned.transpose());
+    const Eigen::MatrixXd thin = factors.householderQ() * Eigen::MatrixXd::Identity(columns, rank);
+    const Matrix basis = thin.transpose();
+    frame.basis.assign(basis.data(), basis.data() + basis.size());
+  }
+  return frame;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,69 @@
+// Mapping the points into the frame. With a full map the sums are compensated, which needs fused
+// multiply-add to be fast: compiled for each instruction set, chosen at run time.
+#include <cmath>
+
+#include "core/simd_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/frame_map.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target first.
+#include <hwy/highway.h>
+
+#include "core/frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+
+/// Sum of map[k] * offset[k] as if computed in twice the working precision and rounded once.
+HWY_INLINE double compensated_dot(const double* map, const double* offset, std::size_t count) {
+  double sum = 0.0, lost = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double product = map[k] * offset[k];
+    const double product_error = __builtin_fma(map[k], offset[k], -product);
+    const double next = sum + product;  // Knuth's two-sum
+    const double part = next - sum;
+    lost += ((sum - (next - part)) + (product - part)) + product_error;
+    sum = next;
+  }
+  return sum + lost;
+}
+
+void map_full(const PointView& points, const Frame& frame, double* out) {
+  std::vector<double> offset(points.dimension);
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    for (std::size_t k = 0; k < points.dimension; ++k) offset[k] = points.at(row, k) - frame.centre[k];
+    for (std::size_t r = 0; r < frame.rank; ++r) {
+      out[row * frame.rank + r] = compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ndhull {
+HWY_EXPORT(map_full);
+
+void map_points(const PointView& points, const Frame& frame, double* out) {
+  if (!frame.is_diagonal) {
+    HWY_DYNAMIC_DISPATCH(map_full)(points, frame, out);
+    return;
+  }
+  std::vector<std::size_t> column_of(frame.rank);
+  for (std::size_t r = 0; r < frame.rank; ++r) {
+    while (frame.map[r * frame.dimension + column_of[r]] == 0.0) ++column_of[r];
+  }
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    for (std::size_t r = 0; r < frame.rank; ++r) {
+      const std::size_t column = column_of[r];
+      out[row * frame.rank + r] =
+          (points.at(row, column) - frame.centre[column]) * frame.map[r * frame.dimension + column];
+    }
+  }
+}
+
+}  // namespace ndhull
+#endif

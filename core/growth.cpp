@@ -1,0 +1,96 @@
+#include "core/growth.h"
+
+#include <unistd.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace ndhull {
+namespace {
+
+/// Rows that are given address space: what would fill twice the machine's memory. Only touched pages count.
+std::size_t row_capacity(std::size_t rank) {
+  const auto machine_bytes = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t row_bytes = 16 * rank;
+  constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
+  return std::min(2 * machine_bytes / row_bytes, kMostRows);
+}
+
+/// The dual vertex of the plane through `rank` points, refined once.
+void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, double* plane) {
+  const auto rank = static_cast<Eigen::Index>(work.rank);
+  Eigen::MatrixXd rows(rank, rank);
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    const double* point = work.points + std::size_t{vertices[static_cast<std::size_t>(i)].value} * work.rank;
+    for (Eigen::Index k = 0; k < rank; ++k) rows(i, k) = point[k];
+  }
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(rows);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
+  Eigen::VectorXd dual = factors.solve(ones);
+  dual += factors.solve(ones - rows * dual);
+  std::copy_n(dual.data(), work.rank, plane);
+}
+
+}  // namespace
+
+void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double gauge) {
+  work.gauge[point] = gauge;
+  std::uint32_t& head = work.complex.outside_head[row];
+  if (head != 0 && gauge <= work.gauge[head - 1]) {
+    work.next_outside[point] = work.next_outside[head - 1];
+    work.next_outside[head - 1] = point + 1;
+  } else {
+    work.next_outside[point] = head;
+    head = point + 1;
+    work.pending.push_back({gauge, row});
+    std::push_heap(work.pending.begin(), work.pending.end());
+  }
+  ++work.points_outside;
+}
+
+void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
+  const std::size_t capacity = row_capacity(work.rank);
+  work.complex = SimplicialComplex(work.rank, capacity);
+  work.free_rows = HugeArray<std::uint32_t>(capacity);
+  work.next_outside.assign(work.point_count, 0);
+  work.gauge.assign(work.point_count, 0.0);
+  SimplicialComplex& complex = work.complex;
+  complex.row_count = work.rank + 1;
+  for (std::uint32_t row = 0; row <= work.rank; ++row) {
+    std::uint32_t* vertices = complex.topology.data() + row * 2 * work.rank;
+    std::uint32_t* neighbours = vertices + work.rank;
+    for (std::uint32_t k = 0; k < work.rank; ++k) {
+      const std::uint32_t other = k < row ? k : k + 1;
+      vertices[k] = simplex[other].value;
+      neighbours[k] = other;
+    }
+    if (row % 2 != 0) {  // leaving out the next vertex changes the orientation: swap two to restore it
+      std::swap(vertices[0], vertices[1]);
+      std::swap(neighbours[0], neighbours[1]);
+    }
+    solve_plane(work, complex.vertices(SimplexId{row}), complex.planes.data() + row * work.rank);
+    complex.state[row] = SimplexState::kLive;
+  }
+  std::vector<bool> is_vertex(work.point_count, false);
+  for (const PointId id : simplex) is_vertex[id.value] = true;
+  for (std::uint32_t id = 0; id < work.point_count; ++id) {
+    if (is_vertex[id]) continue;
+    const double* point = work.points + std::size_t{id} * work.rank;
+    double best = -HUGE_VAL;
+    std::uint32_t best_row = 0;
+    for (std::uint32_t row = 0; row <= work.rank; ++row) {
+      double gauge = -1.0;
+      for (std::size_t k = 0; k < work.rank; ++k) gauge += complex.planes[row * work.rank + k] * point[k];
+      if (gauge > best) {
+        best = gauge;
+        best_row = row;
+      }
+    }
+    if (best > 2.0 * work.options.shift) push_outside(work, id, best_row, best);
+  }
+}
+
+}  // namespace ndhull

@@ -1,0 +1,87 @@
+// Growing the simplicial hull, one point at a time, on dual vertices.
+//
+// Papers  Barber, Dobkin, Huhdanpaa. The Quickhull algorithm for convex hulls. ACM TOMS 22(4), 1996 (outside
+//         sets). Motzkin, Raiffa, Thompson, Thrall. The double description method. 1953 (the dual step: a
+//         new vertex is where an edge meets the cutting plane). The inward shift is ours: core/DESIGN.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/huge_array.h"
+#include "core/ids.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Why growth ended. Every value is a valid hull of the points added; only the first is the full one.
+enum class GrowthStop { kNoOutsidePoints, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
+
+/// Gauge units: the gauge of y with respect to the simplex with dual plane a is a.y - 1, so 0 on the facet and
+/// -1 at the interior point. In these units all roundoff and shifts are relative to the hull's own size.
+struct GrowthOptions {
+  /// [ratio] A point whose decisions are not all clearer than this is moved inwards by between one and two
+  /// of it. 1e-12 is some 4,000 times the rounding error of one decision and still far below data noise;
+  /// core/DESIGN.md has the experiment.
+  double shift = 1e-12;
+  std::uint64_t seed = 1;
+  std::uint64_t max_rows = 0;          ///< 0: no limit on simplices
+  std::uint64_t max_memory_bytes = 0;  ///< 0: no limit on the complex's tables
+  /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
+  std::function<GrowthStop(std::uint64_t points_left, double furthest_gauge)> poll;
+};
+
+struct GrowthCounters {
+  std::uint64_t created = 0;             ///< simplices ever made
+  std::uint64_t insertions = 0;          ///< points added
+  std::uint64_t shifted = 0;             ///< of these, moved inwards
+  std::uint64_t rejected = 0;            ///< insertions tried that did not close and were undone
+  std::uint64_t set_aside = 0;           ///< points given up after all tries; certify finds out what they cost
+  double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
+};
+
+/// An outside set in the queue; stale when its simplex is gone or its furthest point has changed.
+struct OutsideSet {
+  double gauge;  ///< of the furthest point
+  std::uint32_t row;
+  bool operator<(const OutsideSet& other) const {  // ties by id: the order must not depend on the heap
+    return gauge != other.gauge ? gauge < other.gauge : row > other.row;
+  }
+};
+
+/// Everything that growth works on. Plain tables: the phases are free functions.
+struct GrowthWork {
+  std::size_t rank = 0;
+  std::size_t point_count = 0;
+  const double* points = nullptr;  ///< point_count x rank, in the frame, the interior point at 0
+
+  SimplicialComplex complex;
+  HugeArray<std::uint32_t> free_rows;
+  std::size_t free_count = 0;
+
+  std::vector<std::uint32_t> next_outside;  ///< per point: next of the same outside set + 1, 0 at the end
+  std::vector<double> gauge;                ///< per point: gauge above the simplex that holds it
+  std::vector<OutsideSet> pending;          ///< heap: the set with the furthest point of all comes first
+  std::uint64_t points_outside = 0;
+
+  GrowthOptions options;
+  GrowthCounters counters;
+  bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
+};
+
+/// Makes the first simplex from rank + 1 affinely independent points around 0 and puts every other point
+/// into an outside set or drops it as inside.
+void start_growth(GrowthWork& work, std::span<const PointId> simplex);
+
+/// Adds outside points, the furthest of all first, until none are left or a limit is hit. May be called again
+/// after `push_outside`.
+GrowthStop grow(GrowthWork& work);
+
+/// Puts `point` into the outside set of simplex `row`, which it is above by `gauge`. The furthest point of a
+/// set comes first, the rest in no order.
+void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double gauge);
+
+}  // namespace ndhull

@@ -1,0 +1,20 @@
+// Lists of ids of different lengths, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ndhull {
+
+/// Rows of ids of different lengths in one array: row r is values[begin[r] .. begin[r + 1]).
+struct IdRows {
+  std::vector<std::uint32_t> begin{0};
+  std::vector<std::uint32_t> values;
+  std::span<const std::uint32_t> row(std::size_t r) const {
+    return {values.data() + begin[r], values.data() + begin[r + 1]};
+  }
+};
+
+}  // namespace ndhull

@@ -1,0 +1,261 @@
+#include "core/membership.h"
+
+#include <cmath>
+
+#include "core/simd_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/membership.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target first.
+#include <hwy/highway.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "core/block_elimination-inl.h"
+#include "core/error.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+
+template <std::size_t D>
+double dot(const double* a, const double* b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < D; ++k) sum = __builtin_fma(a[k], b[k], sum);
+  return sum;
+}
+
+/// From `start`, to the neighbour with the highest plane product until none is higher.
+template <std::size_t D>
+SimplexId climb(const SimplicialComplex& complex, const double* y, SimplexId start) {
+  SimplexId at = start;
+  double best = dot<D>(complex.plane(at).data(), y);
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const SimplexId neighbour : complex.neighbours(at)) {
+      const double product = dot<D>(complex.plane(neighbour).data(), y);
+      if (product > best) {
+        best = product;
+        at = neighbour;
+        moved = true;
+      }
+    }
+  }
+  return at;
+}
+
+/// Gauge bound from the coordinates lambda of y in its simplex, one query a lane. See the proof in the header.
+template <std::size_t D>
+void prove_block(const SimplicialComplex& complex, const double* points, const HullBall& ball, LocatedPoint* block) {
+  const Tag tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  HWY_ALIGN double entries[D * (D + 1) * HWY_MAX_BYTES / sizeof(double)];
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto vertices = complex.vertices(block[lane].simplex);
+    for (std::size_t i = 0; i <= D; ++i) {
+      const std::uint32_t id = i < D ? vertices[i].value : block[lane].point.value;
+      const double* row = points + std::size_t{id} * D;
+      for (std::size_t k = 0; k < D; ++k) entries[(k * (D + 1) + i) * lanes + lane] = row[k];
+    }
+  }
+  Lane matrix[D][D + 1], lambda[D];
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t i = 0; i <= D; ++i) matrix[k][i] = hn::Load(tag, entries + (k * (D + 1) + i) * lanes);
+  }
+  eliminate<D>(matrix, lambda);
+  Lane sum = hn::Zero(tag), negative = sum, residual = sum, magnitude = sum;
+  for (std::size_t i = 0; i < D; ++i) {
+    sum = hn::Add(sum, hn::Max(lambda[i], hn::Zero(tag)));
+    negative = hn::Add(negative, hn::Max(hn::Neg(lambda[i]), hn::Zero(tag)));
+    magnitude = hn::Add(magnitude, hn::Abs(lambda[i]));
+  }
+  for (std::size_t k = 0; k < D; ++k) {
+    Lane rest = hn::Load(tag, entries + (k * (D + 1) + D) * lanes);
+    for (std::size_t i = 0; i < D; ++i) rest = hn::NegMulAdd(hn::Load(tag, entries + (k * (D + 1) + i) * lanes), lambda[i], rest);
+    residual = hn::Add(residual, hn::Abs(rest));
+  }
+  // The residual is itself computed: its error is at most gamma_{D+1} of the terms' sizes, taken twice.
+  constexpr double kGamma = 2.0 * (D + 2) * 0x1p-53;
+  const Lane reach = hn::Set(tag, ball.reach), unit = hn::Set(tag, 1.0 / ball.inner_radius);
+  residual = hn::MulAdd(hn::Set(tag, kGamma * D), hn::Mul(reach, hn::Add(magnitude, hn::Set(tag, 1.0))), residual);
+  const Lane covered = hn::Mul(unit, hn::MulAdd(negative, reach, residual));
+  HWY_ALIGN double gauge[HWY_MAX_BYTES / sizeof(double)];
+  hn::Store(hn::Sub(hn::Add(sum, covered), hn::Set(tag, 1.0)), tag, gauge);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    block[lane].gauge = gauge[lane] == gauge[lane] ? gauge[lane] : HUGE_VAL;
+  }
+}
+
+template <std::size_t D>
+void locate_all(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                std::span<LocatedPoint> located) {
+  const std::size_t lanes = hn::Lanes(Tag());
+  SimplexId start{0};
+  for (std::size_t begin = 0; begin < located.size(); begin += lanes) {
+    LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
+    const std::size_t used = std::min(lanes, located.size() - begin);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      block[lane] = located[begin + std::min(lane, used - 1)];
+      if (lane < used) start = climb<D>(complex, points + std::size_t{block[lane].point.value} * D, start);
+      block[lane].simplex = start;
+    }
+    prove_block<D>(complex, points, ball, block);
+    std::copy_n(block, used, located.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
+}
+
+void locate_any(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                std::span<LocatedPoint> located) {
+  switch (complex.rank) {
+#define NDHULL_CASE(D) \
+  case D: return locate_all<D>(complex, points, ball, located);
+    NDHULL_CASE(2) NDHULL_CASE(3) NDHULL_CASE(4) NDHULL_CASE(5) NDHULL_CASE(6)
+    NDHULL_CASE(7) NDHULL_CASE(8) NDHULL_CASE(9) NDHULL_CASE(10) NDHULL_CASE(11)
+    NDHULL_CASE(12) NDHULL_CASE(13) NDHULL_CASE(14) NDHULL_CASE(15) NDHULL_CASE(16)
+#undef NDHULL_CASE
+    default: NDHULL_CHECK(!"rank is checked before growth starts");
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ndhull {
+HWY_EXPORT(locate_any);
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+/// A proof is wanted up to this gauge: what is worse may come from the wrong simplex. One shift of growth.
+constexpr double kUseful = 1e-12;
+
+/// Coordinates of y in the simplex's cone, with the gauge they prove.
+struct ConeCoordinates {
+  Vector lambda;
+  double gauge = HUGE_VAL;
+};
+
+class Walker {
+ public:
+  Walker(const SimplicialComplex& complex, const double* points, const HullBall& ball)
+      : complex_(complex), points_(points), ball_(ball), rank_(static_cast<Eigen::Index>(complex.rank)) {}
+
+  /// Walks from the located simplex across the ridge opposite the most negative coordinate. Degenerate
+  /// complexes can make that turn in circles, so the steps are bounded and the best simplex is kept.
+  void walk(LocatedPoint& located) const {
+    const std::size_t step_limit = 64 + 8 * complex_.rank;
+    SimplexId at = located.simplex;
+    for (std::size_t step = 0; step < step_limit && located.gauge > kUseful; ++step) {
+      const ConeCoordinates coordinates = coordinates_of(located.point, at);
+      take_better(located, at, coordinates.gauge);
+      Eigen::Index lowest = 0;
+      if (!coordinates.lambda.allFinite()) return;
+      if (coordinates.lambda.minCoeff(&lowest) >= 0.0) return;
+      at = complex_.neighbours(at)[static_cast<std::size_t>(lowest)];
+    }
+  }
+
+  /// Tries the simplices with the highest products of all: among them is the one that the ray leaves through.
+  void search_all(LocatedPoint& located) const {
+    const Eigen::Map<const Vector> y(points_ + std::size_t{located.point.value} * complex_.rank, rank_);
+    double best = -HUGE_VAL;
+    std::vector<std::pair<double, std::uint32_t>> products;
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
+      if (complex_.state[row] != SimplexState::kLive) continue;
+      const double product = y.dot(Eigen::Map<const Vector>(complex_.plane(SimplexId{row}).data(), rank_));
+      if (product < best - kUseful) continue;
+      best = std::max(best, product);
+      products.emplace_back(product, row);
+    }
+    for (const auto& [product, row] : products) {
+      if (product < best - kUseful) continue;
+      take_better(located, SimplexId{row}, coordinates_of(located.point, SimplexId{row}).gauge);
+      if (located.gauge <= std::max(kUseful, best - 1.0 + kUseful)) return;
+    }
+  }
+
+ private:
+  static void take_better(LocatedPoint& located, SimplexId simplex, double gauge) {
+    if (!(gauge < located.gauge)) return;
+    located.gauge = gauge;
+    located.simplex = simplex;
+  }
+
+  ConeCoordinates coordinates_of(PointId point, SimplexId simplex) const {
+    Eigen::MatrixXd columns(rank_, rank_);
+    const auto vertices = complex_.vertices(simplex);
+    for (Eigen::Index i = 0; i < rank_; ++i) {
+      const std::uint32_t id = vertices[static_cast<std::size_t>(i)].value;
+      columns.col(i) = Eigen::Map<const Vector>(points_ + std::size_t{id} * complex_.rank, rank_);
+    }
+    const Eigen::Map<const Vector> y(points_ + std::size_t{point.value} * complex_.rank, rank_);
+    ConeCoordinates result;
+    result.lambda = columns.partialPivLu().solve(y);
+    if (!result.lambda.allFinite()) return result;
+    const double positive = result.lambda.cwiseMax(0.0).sum();
+    const double negative = (-result.lambda).cwiseMax(0.0).sum();
+    const double n = static_cast<double>(rank_);
+    const double computed = 2.0 * (n + 2.0) * 0x1p-53 * n * ball_.reach * (1.0 + positive + negative);
+    const double residual = (y - columns * result.lambda).lpNorm<1>() + computed;
+    result.gauge = positive + (negative * ball_.reach + residual) / ball_.inner_radius - 1.0;
+    return result;
+  }
+
+  const SimplicialComplex& complex_;
+  const double* points_;
+  HullBall ball_;
+  Eigen::Index rank_;
+};
+
+}  // namespace
+
+HullBall find_ball(std::size_t rank, const double* points, std::size_t point_count,
+                   std::span<const PointId> simplex) {
+  HullBall ball;
+  double longest_sq = 0.0;
+  for (std::size_t row = 0; row < point_count; ++row) {
+    double length_sq = 0.0;
+    for (std::size_t k = 0; k < rank; ++k) length_sq += points[row * rank + k] * points[row * rank + k];
+    longest_sq = std::max(longest_sq, length_sq);
+  }
+  ball.reach = std::sqrt(longest_sq) * (1.0 + 1e-14);
+  const auto size = static_cast<Eigen::Index>(rank);
+  double longest_dual = 0.0;
+  for (std::size_t omitted = 0; omitted <= rank; ++omitted) {
+    Eigen::MatrixXd rows(size, size);
+    for (std::size_t from = 0, row = 0; from <= rank; ++from) {
+      if (from == omitted) continue;
+      rows.row(static_cast<Eigen::Index>(row++)) =
+          Eigen::Map<const Eigen::RowVectorXd>(points + std::size_t{simplex[from].value} * rank, size);
+    }
+    longest_dual = std::max(longest_dual, rows.partialPivLu().solve(Vector::Ones(size)).norm());
+  }
+  // Half of what was computed: the frame keeps the simplex well shaped, so the solve's error is far below.
+  ball.inner_radius = 0.5 / longest_dual;
+  return ball;
+}
+
+std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                                       std::span<const PointId> queries, std::uint64_t& searched_all) {
+  std::vector<LocatedPoint> located;
+  located.reserve(queries.size());
+  for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL});
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, located);
+  const Walker walker(complex, points, ball);
+  for (LocatedPoint& point : located) {
+    if (point.gauge <= kUseful) continue;
+    walker.walk(point);
+    if (point.gauge <= kUseful) continue;
+    walker.search_all(point);
+    ++searched_all;
+  }
+  return located;
+}
+
+}  // namespace ndhull
+#endif

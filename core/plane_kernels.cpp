@@ -1,0 +1,222 @@
+#include "core/plane_kernels.h"
+
+#include <cmath>
+
+#include "core/simd_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/plane_kernels.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target first.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/block_elimination-inl.h"
+#include "core/error.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+// Two vectors of facets stay in registers while all points stream by: each broadcast is used twice. D = 0:
+// the dimension is known at run time only and the facets' coordinates come from the stack.
+template <std::size_t D>
+void max_dots_of(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                 std::span<double> max_dot) {
+  const Tag tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  const std::size_t width = D > 0 ? D : dimension;
+  const std::size_t facet_count = max_dot.size();
+  const std::size_t point_count = points.size() / width;
+  const std::size_t block = 2 * lanes;
+  std::vector<double> transposed(block * width);
+  for (std::size_t begin = 0; begin < facet_count; begin += block) {
+    const std::size_t used = std::min(block, facet_count - begin);
+    for (std::size_t f = 0; f < block; ++f) {
+      const double* normal = normals.data() + (begin + std::min(f, used - 1)) * width;
+      for (std::size_t k = 0; k < width; ++k) transposed[k * block + f] = normal[k];
+    }
+    Lane best_low = hn::Set(tag, -HUGE_VAL), best_high = best_low;
+    const double* point = points.data();
+    if constexpr (D > 0) {
+      Lane low[D], high[D];
+      for (std::size_t k = 0; k < D; ++k) {
+        low[k] = hn::LoadU(tag, transposed.data() + k * block);
+        high[k] = hn::LoadU(tag, transposed.data() + k * block + lanes);
+      }
+      for (std::size_t p = 0; p < point_count; ++p, point += D) {
+        Lane x = hn::Set(tag, point[0]);
+        Lane dot_low = hn::Mul(low[0], x), dot_high = hn::Mul(high[0], x);
+        for (std::size_t k = 1; k < D; ++k) {
+          x = hn::Set(tag, point[k]);
+          dot_low = hn::MulAdd(low[k], x, dot_low);
+          dot_high = hn::MulAdd(high[k], x, dot_high);
+        }
+        best_low = hn::Max(best_low, dot_low);
+        best_high = hn::Max(best_high, dot_high);
+      }
+    } else {
+      for (std::size_t p = 0; p < point_count; ++p, point += width) {
+        Lane dot_low = hn::Zero(tag), dot_high = dot_low;
+        for (std::size_t k = 0; k < width; ++k) {
+          const Lane x = hn::Set(tag, point[k]);
+          dot_low = hn::MulAdd(hn::LoadU(tag, transposed.data() + k * block), x, dot_low);
+          dot_high = hn::MulAdd(hn::LoadU(tag, transposed.data() + k * block + lanes), x, dot_high);
+        }
+        best_low = hn::Max(best_low, dot_low);
+        best_high = hn::Max(best_high, dot_high);
+      }
+    }
+    hn::StoreU(best_low, tag, transposed.data());
+    hn::StoreU(best_high, tag, transposed.data() + lanes);
+    std::copy_n(transposed.data(), used, max_dot.data() + begin);
+  }
+}
+
+template <std::size_t D>
+void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
+                 std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
+                 std::span<double> high) {
+  const std::size_t width = D > 0 ? D : dimension;
+  for (std::size_t row = 0; row < complex.row_count; ++row) {
+    const double* normal = normals.data() + row * width;
+    double smallest = HUGE_VAL, largest = -HUGE_VAL;
+    for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
+      const double* point = points.data() + std::size_t{row_of_point[id.value]} * width;
+      double dot = 0.0;
+      for (std::size_t k = 0; k < width; ++k) dot = __builtin_fma(normal[k], point[k], dot);
+      smallest = std::min(smallest, dot);
+      largest = std::max(largest, dot);
+    }
+    low[row] = smallest;
+    high[row] = largest;
+  }
+}
+
+// One simplex a lane.
+template <std::size_t D>
+void solve_block(const double* const* rows, double* dual_out, double* determinant_out) {
+  const Tag tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  HWY_ALIGN double entries[D * D * HWY_MAX_BYTES / sizeof(double)];
+  for (std::size_t i = 0; i < D; ++i) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double* row = rows[lane * D + i];
+      for (std::size_t k = 0; k < D; ++k) entries[(i * D + k) * lanes + lane] = row[k];
+    }
+  }
+  Lane matrix[D][D + 1], dual[D];
+  for (std::size_t i = 0; i < D; ++i) {
+    for (std::size_t k = 0; k < D; ++k) matrix[i][k] = hn::Load(tag, entries + (i * D + k) * lanes);
+    matrix[i][D] = hn::Set(tag, 1.0);
+  }
+  const Lane determinant = eliminate<D>(matrix, dual);
+  for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, dual_out + k * lanes);
+  hn::StoreU(hn::Abs(determinant), tag, determinant_out);
+}
+
+/// Takes the solved plane when it is one: finite and near the plane that growth made.
+template <std::size_t D>
+void take_plane(double* plane, const double* solved, std::size_t lanes) {
+  constexpr double kSamePlane = 1e-6;
+  double largest = 0.0, change = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    largest = std::max(largest, std::abs(plane[k]));
+    const double difference = std::abs(solved[k * lanes] - plane[k]);
+    change = difference <= change ? change : difference;  // keeps NaN
+  }
+  if (!(change <= kSamePlane * largest)) return;
+  for (std::size_t k = 0; k < D; ++k) plane[k] = solved[k * lanes];
+}
+
+template <std::size_t D>
+void solve_simplices_of(SimplicialComplex& complex, const double* points, bool replace_planes,
+                        std::span<double> determinants) {
+  const std::size_t lanes = hn::Lanes(Tag());
+  std::vector<const double*> rows(lanes * D);
+  std::vector<double> dual(lanes * D), determinant(lanes);
+  for (std::size_t begin = 0; begin < complex.row_count; begin += lanes) {
+    const std::size_t used = std::min(lanes, complex.row_count - begin);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
+      const auto vertices = complex.vertices(simplex);
+      for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
+    }
+    solve_block<D>(rows.data(), dual.data(), determinant.data());
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      // A zero pivot, of a simplex without volume, turns into NaN further down.
+      determinants[begin + lane] = determinant[lane] > 0.0 ? determinant[lane] : 0.0;
+    }
+    if (!replace_planes) continue;
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      take_plane<D>(complex.planes.data() + (begin + lane) * D, dual.data() + lane, lanes);
+    }
+  }
+}
+
+#define NDHULL_FOR_EACH_DIMENSION(CALL) \
+  CALL(1) CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) CALL(14) \
+      CALL(15) CALL(16)
+
+void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                  std::span<double> max_dot) {
+  switch (dimension) {
+#define NDHULL_CASE(D) \
+  case D: return max_dots_of<D>(dimension, normals, points, max_dot);
+    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
+#undef NDHULL_CASE
+    default: return max_dots_of<0>(dimension, normals, points, max_dot);
+  }
+}
+
+void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
+                  std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
+                  std::span<double> high) {
+  switch (dimension) {
+#define NDHULL_CASE(D) \
+  case D: return own_dots_of<D>(complex, dimension, normals, points, row_of_point, low, high);
+    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
+#undef NDHULL_CASE
+    default: return own_dots_of<0>(complex, dimension, normals, points, row_of_point, low, high);
+  }
+}
+
+void solve_simplices_any(SimplicialComplex& complex, const double* points, bool replace_planes,
+                         std::span<double> determinants) {
+  switch (complex.rank) {
+#define NDHULL_CASE(D) \
+  case D: return solve_simplices_of<D>(complex, points, replace_planes, determinants);
+    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
+#undef NDHULL_CASE
+    default: NDHULL_CHECK(!"rank is checked before growth starts");
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ndhull {
+HWY_EXPORT(max_dots_any);
+HWY_EXPORT(own_dots_any);
+HWY_EXPORT(solve_simplices_any);
+
+void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+              std::span<double> max_dot) {
+  HWY_DYNAMIC_DISPATCH(max_dots_any)(dimension, normals, points, max_dot);
+}
+
+void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
+              std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
+              std::span<double> high) {
+  HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, dimension, normals, points, row_of_point, low, high);
+}
+
+void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,
+                     std::span<double> determinants) {
+  HWY_DYNAMIC_DISPATCH(solve_simplices_any)(complex, points, replace_planes, determinants);
+}
+
+}  // namespace ndhull
+#endif

@@ -1,0 +1,41 @@
+// The products of many planes with many points that certificates, volumes and planes are made of. Each is
+// compiled for every instruction set and every usual dimension, and knows nothing of growth.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Largest dot product of each normal with any of the points.
+///
+/// Shapes  normals: facets x dimension; points: any number of rows x dimension; max_dot: one a facet.
+/// Error   each dot product is a chain of fused multiply-adds: at most gamma_dimension sum |n_k x_k|
+///         (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5).
+/// Cost    facets x points x dimension fused multiply-adds, at close to the machine's peak.
+void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+              std::span<double> max_dot);
+
+/// Smallest and largest dot product of each simplex's normal with its own vertices.
+///
+/// Shapes  normals: row_count x dimension; points: rows x dimension; row_of_point: the row of each PointId in
+///         `points`; low, high: row_count. Error as above.
+void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
+              std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
+              std::span<double> high);
+
+/// Solves for the plane through each simplex's own vertices and the volume of its cone to the origin.
+///
+/// Shapes  points: point_count x rank (the frame); determinants: complex.row_count, |det| of the vertex rows
+///         = rank! times the volume of the cone.
+/// Planes  with `replace_planes` the complex's planes (made from shifted points) are replaced by the solved
+///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
+///         has no plane of its own to speak of.
+/// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination with partial pivoting.
+void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,
+                     std::span<double> determinants);
+
+}  // namespace ndhull
