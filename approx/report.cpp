@@ -1,0 +1,217 @@
+// The head is one object of the JSON library; the list of facets, which may be a million lines long, is put
+// in before its last brace, facet by facet.
+#include "approx/report.h"
+
+#include <sys/resource.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "approx/verify.h"
+
+namespace ndhull {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kIndent = 2;
+/// [bytes] Text that is gathered before the sink gets it.
+constexpr std::size_t kPieceSize = std::size_t{1} << 16;
+
+/// null for 0, which the library's limits use for none.
+Json limit(std::uint64_t value) { return value == 0 ? Json(nullptr) : Json(value); }
+Json limit(double value) { return value == 0.0 ? Json(nullptr) : Json(value); }
+
+struct OptionToJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  template <class T>
+  Json operator()(const T& value) const {
+    return value;
+  }
+};
+
+Json options_of(const ReportContext& context) {
+  const HullOptions& options = context.options;
+  Json json{{"max_facets", limit(options.limits.max_facets)},
+            {"max_seconds", limit(options.limits.max_seconds)},
+            {"max_memory", limit(options.limits.max_memory_bytes)},
+            {"unit_cube", options.unit_cube},
+            {"triangulate", options.triangulate},
+            {"threads", options.threads},
+            {"seed", options.seed}};
+  for (const auto& [name, value] : context.program_options) json[name] = std::visit(OptionToJson{}, value);
+  return json;
+}
+
+Json seconds_of(const Hull& hull, const ReportContext& context) {
+  Json json{{"read", context.read_seconds}};
+  for (std::size_t phase = 0; phase < hull.statistics.seconds.size(); ++phase) {
+    json[std::string(to_string(static_cast<Phase>(phase)))] = hull.statistics.seconds[phase];
+  }
+  json["select"] = context.select_seconds;
+  json["verify"] = context.verify_seconds;
+  json["write"] = context.write_seconds;
+  json["total"] = context.total_seconds;
+  return json;
+}
+
+Json statistics_of(const HullStatistics& statistics) {
+  Json detail = Json::object();
+  for (const auto& [name, seconds] : statistics.detail_seconds) detail[std::string(name)] = seconds;
+  return {{"created_simplices", statistics.created_simplices},
+          {"insertions", statistics.insertions},
+          {"shifted_points", statistics.shifted_points},
+          {"rejected_insertions", statistics.rejected_insertions},
+          {"repair_rounds", statistics.repair_rounds},
+          {"detail_seconds", std::move(detail)}};
+}
+
+Json verification_of(const Verification& verification) {
+  Json claims = Json::object();
+  for (std::size_t row = 0; row < verification.claims.size(); ++row) {
+    const ClaimRecord& record = verification.claims[row];
+    claims[std::string(to_string(static_cast<Claim>(row)))] = {
+        {"checks", record.checks}, {"failures", record.failures}, {"complete", record.complete}};
+  }
+  return {{"mode", verification.mode == VerifyMode::kExact ? "exact" : "floating"},
+          {"passed", verification.passed()},
+          {"complete", verification.complete()},
+          {"claims", std::move(claims)}};
+}
+
+/// dimension - rank objects {normal, offset}: normal.x + offset = 0 for every input point, up to roundoff.
+Json subspace_of(const Hull& hull) {
+  Json equations = Json::array();
+  const std::vector<double>& rows = hull.subspace_equations;
+  const auto columns = static_cast<std::ptrdiff_t>(hull.dimension);
+  for (auto row = rows.begin(); row != rows.end(); row += columns + 1) {
+    equations.push_back({{"normal", std::vector<double>(row, row + columns)}, {"offset", row[columns]}});
+  }
+  return equations;
+}
+
+Json head_of(const Hull& hull, const ReportContext& context) {
+  Json json;
+  json["ndhull"] = version();
+  json["input"] = {{"path", context.input_path},
+                   {"points", hull.point_count},
+                   {"dimension", hull.dimension},
+                   {"rank", hull.rank}};
+  json["status"] = to_string(hull.status);
+  json["options"] = options_of(context);
+  json["length_unit"] = context.options.unit_cube ? "unit-cube" : "input";
+  json["vertices"] = hull.vertices.size();
+  json["facets"] = hull.facet_count();
+  json["simplicial_facets"] = hull.simplicial_facet_count();
+  json["merged_facets"] = hull.facet_count() - hull.simplicial_facet_count();
+  json["simplices"] = hull.simplices.row_count;
+  json["area"] = hull.area;
+  json["volume"] = hull.volume;
+  json["outer_volume"] = nullptr;
+  json["roundoff"] = hull.roundoff;
+  json["max_outer_offset"] = hull.max_outer_offset;
+  json["min_inner_offset"] = hull.min_inner_offset;
+  json["max_facet_width"] = hull.max_facet_width;
+  json["width_ratio"] = hull.roundoff > 0.0 ? Json(hull.max_facet_width / hull.roundoff) : Json(nullptr);
+  json["max_outside_gauge"] = hull.max_outside_gauge;
+  json["interior_point"] = hull.interior_point;
+  json["points_outside"] = hull.points_outside;
+  json["reference"] = hull.reference;
+  if (hull.rank < hull.dimension) json["subspace_equations"] = subspace_of(hull);
+  if (context.options.unit_cube) json["unit_cube_extents"] = hull.unit_cube_extents();
+  if (context.verification != nullptr) json["verification"] = verification_of(*context.verification);
+  json["statistics"] = statistics_of(hull.statistics);
+  json["seconds"] = seconds_of(hull, context);
+  json["peak_memory_bytes"] = context.peak_memory_bytes;
+  return json;
+}
+
+/// JSON made by hand: the JSON library would build a tree for every facet.
+class FacetLines {
+ public:
+  explicit FacetLines(const Hull& hull) : hull_(hull) {}
+
+  void append(FacetId facet, std::string& text) const {
+    text += "{\"normal\": ";
+    append_all(hull_.normal(facet), text, [](double value) { return value; });
+    append_number(", \"offset\": ", hull_.offset(facet), text);
+    append_number(", \"centred_offset\": ", hull_.centred_offset(facet), text);
+    append_number(", \"outer_offset\": ", hull_.outer_offset(facet), text);
+    append_number(", \"inner_offset\": ", hull_.inner_offset(facet), text);
+    append_number(", \"area\": ", hull_.area_of(facet), text);
+    text += ", \"vertices\": ";
+    append_all(hull_.vertices_of(facet), text, [](PointId id) { return id.value; });
+    text += ", \"neighbors\": ";
+    append_all(hull_.neighbours_of(facet), text, [](FacetId id) { return id.value; });
+    append_number(", \"simplices\": ", hull_.simplices_of(facet).size(), text);
+    text += '}';
+  }
+
+ private:
+  template <class Value>
+  static void append_number(std::string_view key, Value value, std::string& text) {
+    text += key;
+    if constexpr (std::is_floating_point_v<Value>) {
+      if (!std::isfinite(value)) {
+        text += "null";
+        return;
+      }
+    }
+    char digits[32];  // the shortest that reads back: at most 24 characters
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  template <class T, class Number>
+  static void append_all(std::span<const T> values, std::string& text, const Number& number) {
+    text += '[';
+    for (std::size_t k = 0; k < values.size(); ++k)
+      append_number(k == 0 ? "" : ", ", number(values[k]), text);
+    text += ']';
+  }
+
+  const Hull& hull_;
+};
+
+}  // namespace
+
+std::string_view version() { return NDHULL_VERSION; }
+
+void write_hull_report(const Hull& hull, const ReportContext& context,
+                       const std::function<void(std::string_view)>& sink) {
+  // A path may hold any bytes: those that are no UTF-8 are replaced.
+  std::string text = head_of(hull, context).dump(kIndent, ' ', false, Json::error_handler_t::replace);
+  if (context.facet_list) {
+    text.resize(text.size() - std::string_view("\n}").size());
+    text += ",\n  \"facet_list\": [";
+    const FacetLines lines(hull);
+    for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+      text += row == 0 ? "\n    " : ",\n    ";
+      lines.append(FacetId{row}, text);
+      if (text.size() < kPieceSize) continue;
+      sink(text);
+      text.clear();
+    }
+    text += "\n  ]\n}";
+  }
+  text += '\n';
+  sink(text);
+}
+
+std::string hull_report_json(const Hull& hull, const ReportContext& context) {
+  std::string json;
+  write_hull_report(hull, context, [&json](std::string_view piece) { json += piece; });
+  return json;
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+  constexpr std::uint64_t kUnit = 1;
+#else
+  constexpr std::uint64_t kUnit = 1024;
+#endif
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * kUnit;
+}
+
+}  // namespace ndhull

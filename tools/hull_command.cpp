@@ -1,0 +1,146 @@
+#include "tools/hull_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/error.h"
+#include "tools/byte_count.h"
+#include "tools/command_options.h"
+#include "tools/qhull_formats.h"
+
+namespace ndhull {
+namespace {
+
+/// The options as they are written; `request` has the others.
+struct Arguments {
+  HullRequest request;
+  std::string max_memory, plane_kind, format, verify;
+  bool has_format = false;
+};
+
+void add_hull_options(CLI::App& command, Arguments& arguments) {
+  HullOptions& options = arguments.request.options;
+  command.add_option("--max-facets", options.limits.max_facets, "limit: simplices of the growing hull")
+      ->type_name("N")
+      ->check(positive());
+  command.add_option("--max-seconds", options.limits.max_seconds, "limit: seconds of growth")
+      ->type_name("S")
+      ->check(positive());
+  command
+      .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
+      ->type_name("B");
+  command.add_flag("--unit-cube", options.unit_cube,
+                   "measure offsets, widths and roundoff after scaling the input to the unit cube");
+  command.add_flag("--triangulate", options.triangulate,
+                   "leave facets simplices: no coplanar ones are merged");
+  command
+      .add_option("--threads", options.threads,
+                  "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(thread_count());
+  command
+      .add_option("--seed", options.seed,
+                  "of the shifts below roundoff that settle degenerate cases; default 1")
+      ->type_name("S");
+}
+
+void add_output_options(CLI::App& command, Arguments& arguments) {
+  HullRequest& request = arguments.request;
+  CLI::Option* const planes =
+      command
+          .add_option("--planes", request.planes_path, "write the facets' planes: .ine, .npy, or Qhull text")
+          ->type_name("FILE");
+  command
+      .add_option("--plane-kind", arguments.plane_kind,
+                  "outer (no input point is above; default), mean, or inner (no vertex is below)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->needs(planes);
+  command.add_option("--vertices", request.vertices_path, "write the indices of the vertices: .npy or text")
+      ->type_name("FILE");
+  CLI::Option* const report =
+      command.add_option("--report", request.report_path, "write the report, JSON")->type_name("FILE");
+  command.add_flag("--facet-list", request.facet_list, "put every facet into the report")->needs(report);
+  command
+      .add_option("--format", arguments.format,
+                  "print Qhull's text formats, any of n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s")
+      ->type_name("LIST");
+  command
+      .add_option("--verify", arguments.verify,
+                  "check the hull independently before it is written; `--verify exact`: all of it, exactly")
+      ->type_name("[exact]")
+      ->check(CLI::IsMember({"floating", "exact"}).description(""));
+  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
+  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+}
+
+PlaneKind plane_kind_of(const std::string& name) {
+  if (name == "mean") return PlaneKind::kMean;
+  return name == "inner" ? PlaneKind::kInner : PlaneKind::kOuter;
+}
+
+/// Reads what CLI11 left as text.
+HullRequest complete_request(const CLI::App& command, const Arguments& arguments) {
+  HullRequest request = arguments.request;
+  if (!arguments.max_memory.empty()) {
+    request.options.limits.max_memory_bytes = parse_byte_count(arguments.max_memory, "--max-memory");
+  }
+  request.plane_kind = plane_kind_of(arguments.plane_kind);
+  request.formats = split_qhull_formats(arguments.format);
+  if (command.count("--format") > 0 && request.formats.empty()) {
+    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fs n\"");
+  }
+  for (const char* const name : {"--planes", "--vertices", "--report"}) {
+    if (command.count(name) > 0 && command[name]->as<std::string>().empty()) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("{}: found an empty name, expected a file, or - for standard "
+                              "output; name one",
+                              name));
+    }
+  }
+  if (!arguments.verify.empty()) {
+    request.verify = arguments.verify == "exact" ? VerifyMode::kExact : VerifyMode::kFloating;
+  }
+  return request;
+}
+
+}  // namespace
+
+void add_hull_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command =
+      app.add_subcommand("hull", "The convex hull of points, with certified planes; prints a summary.");
+  command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
+      ->type_name("")
+      ->required();
+  add_hull_options(*command, *arguments);
+  add_output_options(*command, *arguments);
+  command->footer(
+      "POINTS: .npy, .csv, .tsv, .ext (cdd, lrs), Qhull text or columns. FILE may be - for standard output.\n"
+      "A limit that is hit ends growth; what there is is certified, written, and `status` in the report says "
+      "so.\n"
+      "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
+      "written.\n" +
+      example("ndhull hull points.npy --planes outer.ine --report report.json"));
+  command->callback(
+      [arguments, command, &exit_code] { exit_code = run_hull(complete_request(*command, *arguments)); });
+}
+
+std::vector<std::string> join_verify_mode(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front() != "hull") return arguments;
+  std::vector<std::string> joined;
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    if (arguments[k] != "--verify") {
+      joined.push_back(arguments[k]);
+    } else if (k + 1 < arguments.size() && arguments[k + 1] == "exact") {
+      joined.emplace_back("--verify=exact");
+      ++k;
+    } else {
+      joined.emplace_back("--verify=floating");
+    }
+  }
+  return joined;
+}
+
+}  // namespace ndhull

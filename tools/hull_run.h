@@ -1,0 +1,43 @@
+// What `ndhull hull` does once its command line is understood.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "approx/hull.h"
+#include "approx/verify.h"
+#include "approx/written_planes.h"
+
+namespace ndhull {
+
+/// The command line of `ndhull hull`. Paths are empty when the output is not wanted; "-" is standard output.
+struct HullRequest {
+  std::string points_path;
+  HullOptions options;
+  std::string planes_path;
+  PlaneKind plane_kind = PlaneKind::kOuter;
+  std::string vertices_path;
+  std::string report_path;
+  bool facet_list = false;
+  std::vector<std::string> formats;  ///< to standard output, in this order
+  std::optional<VerifyMode> verify;
+  bool progress = false;
+  bool quiet = false;
+
+  bool has_output() const {
+    return !planes_path.empty() || !vertices_path.empty() || !report_path.empty() || !formats.empty();
+  }
+};
+
+/// Reads the points, computes their hull, verifies it if asked, and writes what was asked for, the report
+/// last; without any output prints a summary.
+///
+/// Returns  0; 2 when a claim of the hull failed, which is said on standard error and nothing is written;
+///          130 when Ctrl-C came: what there is was written.
+/// Throws   Error as read_points, convex_hull and the writers do; kUsage when two outputs want standard
+/// output
+///          or the same file, kFileWrite before anything is computed when an output cannot be written.
+int run_hull(const HullRequest& request);
+
+}  // namespace ndhull

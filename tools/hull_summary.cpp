@@ -1,0 +1,67 @@
+#include "tools/hull_summary.h"
+
+#include <fmt/format.h>
+
+#include "approx/verify.h"
+#include "tools/byte_count.h"
+
+namespace ndhull {
+namespace {
+
+/// 53940 as 53,940.
+std::string grouped(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
+  return digits;
+}
+
+std::string power_of_unit(std::size_t power) {
+  return power == 1 ? "[input]" : fmt::format("[input^{}]", power);
+}
+
+}  // namespace
+
+std::string hull_summary(const Hull& hull, const ReportContext& context) {
+  const std::string_view unit = context.options.unit_cube ? "[unit cube]" : "[input]";
+  std::string text = fmt::format("hull      {}: {} points in {}-d, {}\n", context.input_path,
+                                 grouped(hull.point_count), hull.dimension, to_string(hull.status));
+  if (hull.rank < hull.dimension) {
+    text += fmt::format("rank      {}: the points lie in a {}-d subspace; what follows is their hull in it\n",
+                        hull.rank, hull.rank);
+  }
+  if (hull.points_outside > 0) {
+    text += fmt::format("outside   {} points are above some outer plane\n", grouped(hull.points_outside));
+  }
+  text += fmt::format("vertices  {}\n", grouped(hull.vertices.size()));
+  text += fmt::format("facets    {}: {} simplicial, {} merged; {} simplices\n", grouped(hull.facet_count()),
+                      grouped(hull.simplicial_facet_count()),
+                      grouped(hull.facet_count() - hull.simplicial_facet_count()),
+                      grouped(hull.simplices.row_count));
+  if (hull.rank > 0) {
+    // The facets of a segment are its two ends, which are counted.
+    text += fmt::format("volume    {:.10g} {}\n", hull.volume, power_of_unit(hull.rank));
+    if (hull.rank > 1) text += fmt::format("area      {:.10g} {}\n", hull.area, power_of_unit(hull.rank - 1));
+    text += fmt::format("width     {:.3g} {}: the widest facet, certified\n", hull.max_facet_width, unit);
+    text += fmt::format("roundoff  {:.3g} {}\n", hull.roundoff, unit);
+  }
+  if (hull.status != HullStatus::kComplete) {
+    text += fmt::format("gauge     {:.3g}: all points lie in the hull scaled by 1 + this\n",
+                        hull.max_outside_gauge);
+  }
+  const HullStatistics& statistics = hull.statistics;
+  text += fmt::format("time      {:.2f} s: read {:.2f}", context.total_seconds, context.read_seconds);
+  for (std::size_t phase = 0; phase < statistics.seconds.size(); ++phase) {
+    text += fmt::format(", {} {:.2f}", to_string(static_cast<Phase>(phase)), statistics.seconds[phase]);
+  }
+  if (context.verification != nullptr) {
+    text += fmt::format(", verify {:.2f}", context.verify_seconds);
+  }
+  text += fmt::format("\nmemory    {}\n", format_byte_count(context.peak_memory_bytes));
+  if (context.verification != nullptr) {
+    text += fmt::format("verified  {}\n",
+                        context.verification->complete() ? "every claim" : "samples of the claims");
+  }
+  return text;
+}
+
+}  // namespace ndhull
