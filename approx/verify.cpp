@@ -53,7 +53,8 @@ void scan_outer(const PointView& points, const HullClaims& hull, std::size_t poi
   record.worst_excess = std::max(record.worst_excess, excess);
 }
 
-void verify_outer(const PointView& points, const HullClaims& hull, VerifyMode mode, Verification& result) {
+void verify_outer(const PointView& points, const HullClaims& hull, VerifyMode mode, double max_work,
+                  Verification& result) {
   const double work = static_cast<double>(points.rows) * static_cast<double>(points.dimension) *
                       static_cast<double>(hull.facet_count());
   if (mode == VerifyMode::kExact || work <= max_work) {
@@ -66,6 +67,23 @@ void verify_outer(const PointView& points, const HullClaims& hull, VerifyMode mo
   scan_outer(points, hull, stride, 1, DoubtfulSign::kExtendedThenExact, result);
   scan_outer(points, hull, 1, stride, DoubtfulSign::kExtendedThenExact, result);
   result.of(Claim::kOuter).complete = false;
+}
+
+void verify_complex(const HullClaims& hull, ClaimRecord& record) {
+  const SimplicialComplex& complex = hull.simplices();
+  if (complex.rank == 1) {  // two ends; a row of one vertex has no orientation
+    const auto names = [&](std::uint32_t row, std::uint32_t other) {
+      return complex.neighbours(SimplexId{row})[0] == SimplexId{other};
+    };
+    record_check(record, complex.row_count == 2 && names(0, 1) && names(1, 0), [&] {
+      return "a segment has two ends, each the other's neighbour: found " + std::to_string(complex.row_count);
+    });
+    return;
+  }
+  const ComplexCheck found = check_complex(complex);
+  record.checks = found.simplices;
+  record.failures = found.problems;
+  record.first_failure = found.first_problem;
 }
 
 void verify_numbers(const HullClaims& hull, ClaimRecord& record) {
@@ -162,12 +180,7 @@ Verification verify_claims(const PointView& points, const HullClaims& hull, Veri
                });
   if (numbers_record.failures > 0 || numbers.rank == 0) return result;
 
-  const ComplexCheck complex = check_complex(hull.simplices());
-  ClaimRecord& complex_record = result.of(Claim::kComplex);
-  complex_record.checks = complex.simplices;
-  complex_record.failures = complex.problems;
-  complex_record.first_failure = complex.first_problem;
-
+  verify_complex(hull, result.of(Claim::kComplex));
   const auto doubtful = mode == VerifyMode::kExact ? DoubtfulSign::kExact : DoubtfulSign::kExtendedThenExact;
   verify_facets(points, hull, doubtful, result);
   verify_outer(points, hull, mode, max_outer_work, result);

@@ -33,7 +33,8 @@ enum class Claim {
   kInterior,  ///< the interior point is strictly below every facet's plane
   kNumbers,   ///< the hull's maximum and minimum offsets are those of its facets; area and volume positive
   kOrientation,  ///< kExact, full rank: over a simplicial facet's vertices, as exact points, its neighbours'
-                 ///< vertices are not higher than its width explains (exact_height_test)
+                 ///< vertices are on the interior point's side, or higher by no more than its
+                 ///< width explains (exact_height_test)
   kCount
 };
 std::string_view to_string(Claim claim);

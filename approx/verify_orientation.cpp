@@ -82,9 +82,12 @@ class RidgeChecker {
     const int side = orientation_of(point_);
     const bool is_convex = side_ == 0 || side == 0 || side == side_;
     if (!is_convex) ++found.concave;
-    const bool holds = is_convex || height_is_explained(ridge.facet);
+    // One of the two is on the far side, by the facet's normal as well as by the points.
+    const bool holds = is_convex || (height_is_explained(ridge.facet, point_) &&
+                                     height_is_explained(ridge.facet, hull_.interior_point()));
     record_check(found.record, holds, [&] {
-      return "point " + std::to_string(ridge.opposite.value) + " is higher over the vertices of facet " +
+      return "point " + std::to_string(ridge.opposite.value) +
+             " or the interior point is higher over the vertices " + "of facet " +
              std::to_string(ridge.facet.value) + " than its width explains: width " +
              found_and_claimed(hull_.outer_offset(ridge.facet) - hull_.inner_offset(ridge.facet),
                                hull_.numbers().max_facet_width);
@@ -97,9 +100,9 @@ class RidgeChecker {
     return exact_orientation(rows_, dimension_);
   }
 
-  bool height_is_explained(FacetId facet) const {
+  bool height_is_explained(FacetId facet, std::span<const double> point) const {
     const auto vertices = std::span<const double>(rows_).first(dimension_ * dimension_);
-    return exact_height_test(vertices, hull_.normal(facet), point_, hull_.outer_offset(facet),
+    return exact_height_test(vertices, hull_.normal(facet), point, hull_.outer_offset(facet),
                              hull_.inner_offset(facet),
                              hull_.input_per_length_unit(facet)) != HeightTest::kAbove;
   }
