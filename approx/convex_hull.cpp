@@ -250,23 +250,18 @@ class HullBuilder {
     }
     detail("volumes", start);
     // Without a shifted point every decision was clearer than the shift: all ridges are convex.
-    if (!shifted || options_.triangulate) return;
+    if (!shifted || options_.triangulate) {
+      hull_.layout_ = simplicial_layout(work_.complex);
+      return;
+    }
     const Clock::time_point merge_start = Clock::now();
-    clusters_ = merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
-    merged_ = clusters_.facet_count() < work_.complex.row_count;
+    hull_.layout_ = merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
     detail("coplanar merging", merge_start);
   }
 
   void make_facets() {
     Clock::time_point start = Clock::now();
-    if (merged_) {
-      is_vertex_ = find_vertices(work_.complex, clusters_, points_.rows);
-    } else {
-      is_vertex_.assign(points_.rows, false);
-      for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) {
-        for (const PointId id : work_.complex.vertices(SimplexId{row})) is_vertex_[id.value] = true;
-      }
-    }
+    is_vertex_ = find_vertices(work_.complex, hull_.layout_, points_.rows);
     for (std::uint32_t id = 0; id < points_.rows; ++id) {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
@@ -275,7 +270,7 @@ class HullBuilder {
     coordinates_ = std::vector<double>();
     detail("vertices", start);
     start = Clock::now();
-    FacetTable table = make_facet_table(work_.complex, merged_ ? &clusters_ : nullptr, frame_, certificate,
+    FacetTable table = make_facet_table(work_.complex, hull_.layout_, frame_, certificate,
                                         {determinants_.data(), work_.complex.row_count}, hull_.length_unit_,
                                         covered_gauge_);
     detail("facet table", start);
@@ -290,35 +285,30 @@ class HullBuilder {
     hull_.roundoff = table.roundoff;
     hull_.area = table.area;
     hull_.volume = table.volume;
-    hull_.merged_ = merged_;
-    if (merged_) {
-      list_merged_facets();
-    } else {
-      hull_.facet_count_ = hull_.simplicial_facet_count_ = work_.complex.row_count;
-      hull_.own_ids_.resize(work_.complex.row_count);
-      for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
-    }
+    hull_.own_ids_.resize(work_.complex.row_count);
+    for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
+    list_irregular_facets();
     hull_.simplices = std::move(work_.complex);
   }
 
-  void list_merged_facets() {
-    hull_.facet_count_ = clusters_.facet_count();
-    std::vector<std::uint32_t> seen_vertex(points_.rows, FacetId::kNone), seen_facet(clusters_.facet_count(), FacetId::kNone);
-    for (std::uint32_t facet = 0; facet < clusters_.facet_count(); ++facet) {
-      const auto members = clusters_.simplices.row(facet);
-      const bool simplicial = members.size() == 1;
-      hull_.simplicial_facet_count_ += simplicial ? 1 : 0;
+  /// Vertices and neighbours of the facets that are merged or have a merged neighbour.
+  void list_irregular_facets() {
+    const FacetLayout& layout = hull_.layout_;
+    std::vector<std::uint32_t> seen_vertex(points_.rows, FacetId::kNone);
+    std::vector<std::uint32_t> seen_facet(layout.facets, FacetId::kNone);
+    IdRows& vertices = hull_.facet_vertices_;
+    IdRows& neighbours = hull_.facet_neighbours_;
+    for (std::uint32_t facet = static_cast<std::uint32_t>(layout.regular); facet < layout.facets; ++facet) {
+      const bool simplicial = hull_.is_simplicial(FacetId{facet});
       seen_facet[facet] = facet;
-      IdRows& vertices = hull_.facet_vertices_;
-      IdRows& neighbours = hull_.facet_neighbours_;
-      for (const std::uint32_t simplex : members) {
-        for (const PointId id : work_.complex.vertices(SimplexId{simplex})) {
+      for (const SimplexId simplex : hull_.simplices_of(FacetId{facet})) {
+        for (const PointId id : work_.complex.vertices(simplex)) {
           if (seen_vertex[id.value] == facet || !is_vertex_[id.value]) continue;
           seen_vertex[id.value] = facet;
           vertices.values.push_back(id.value);
         }
-        for (const SimplexId neighbour : work_.complex.neighbours(SimplexId{simplex})) {
-          const std::uint32_t other = clusters_.facet_of_simplex[neighbour.value].value;
+        for (const SimplexId neighbour : work_.complex.neighbours(simplex)) {
+          const std::uint32_t other = layout.facet_of(neighbour).value;
           if (!simplicial && seen_facet[other] == facet) continue;
           seen_facet[other] = facet;
           neighbours.values.push_back(other);
@@ -331,8 +321,6 @@ class HullBuilder {
       vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
       neighbours.begin.push_back(static_cast<std::uint32_t>(neighbours.values.size()));
     }
-    hull_.facet_simplices_ = std::move(clusters_.simplices);
-    hull_.facet_of_simplex_ = std::move(clusters_.facet_of_simplex);
   }
 
   const PointView& points_;
@@ -345,8 +333,6 @@ class HullBuilder {
   std::vector<bool> certificate_wanted_;
   double covered_gauge_ = 0.0;
   HugeArray<double> determinants_;
-  FacetClusters clusters_;
-  bool merged_ = false;
   std::vector<bool> is_vertex_;
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/plane_kernels.h"
+
 namespace ndhull {
 namespace {
 
@@ -13,15 +15,16 @@ using ConstRow = Eigen::Map<const Vector>;
 
 class Merger {
  public:
-  Merger(const SimplicialComplex& complex, const double* points, std::span<const double> determinants,
-         double tolerance)
+  Merger(SimplicialComplex& complex, const double* points, std::span<double> determinants, double tolerance)
       : complex_(complex), points_(points), determinants_(determinants), tolerance_(tolerance) {}
 
-  FacetClusters run() {
-    find_flat_ridges();
+  FacetLayout run() {
+    has_flat_ridge_.assign(complex_.row_count, 0);
+    mark_flat(complex_, points_, tolerance_, has_flat_ridge_);
     grow_facets();
     absorb_slivers();
-    return number_facets();
+    order_rows();
+    return take_planes();
   }
 
  private:
@@ -42,18 +45,6 @@ class Merger {
     const auto back = complex_.neighbours(SimplexId{neighbour});
     const auto slot = static_cast<std::size_t>(std::find(back.begin(), back.end(), SimplexId{simplex}) - back.begin());
     return complex_.vertices(SimplexId{neighbour})[slot];
-  }
-
-  void find_flat_ridges() {
-    has_flat_ridge_.assign(complex_.row_count, false);
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
-        const double gauge = plane(simplex).dot(point(opposite_vertex(neighbour.value, simplex))) - 1.0;
-        if (gauge <= -tolerance_) continue;
-        has_flat_ridge_[simplex] = true;
-        has_flat_ridge_[neighbour.value] = true;
-      }
-    }
   }
 
   void grow_facets() {
@@ -87,20 +78,24 @@ class Merger {
     clusters_.push_back(std::move(cluster));
   }
 
-  std::vector<PointId> points_of(const Cluster& cluster) const {
+  /// The different vertices of a cluster, in the order met.
+  std::vector<PointId> points_of(const Cluster& cluster) {
     std::vector<PointId> ids;
+    ++stamp_;
     for (const std::uint32_t simplex : cluster.simplices) {
-      const auto vertices = complex_.vertices(SimplexId{simplex});
-      ids.insert(ids.end(), vertices.begin(), vertices.end());
+      for (const PointId id : complex_.vertices(SimplexId{simplex})) {
+        if (id.value >= stamp_of_point_.size()) stamp_of_point_.resize(2 * std::size_t{id.value} + 2, 0);
+        if (stamp_of_point_[id.value] == stamp_) continue;
+        stamp_of_point_[id.value] = stamp_;
+        ids.push_back(id);
+      }
     }
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return ids;
   }
 
   // Minimises sum (a.v - 1)^2. Kept only when it is no wider than the seed's plane: a thin flat does not
   // determine all coordinates of its plane.
-  void fit_plane(Cluster& cluster) const {
+  void fit_plane(Cluster& cluster) {
     const std::vector<PointId> ids = points_of(cluster);
     Eigen::MatrixXd rows(static_cast<Eigen::Index>(ids.size()), rank());
     for (std::size_t i = 0; i < ids.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = point(ids[i]);
@@ -123,11 +118,14 @@ class Merger {
       const std::vector<PointId> ids = points_of(clusters_[id]);
       double best_width = tolerance_;
       std::uint32_t best = kNone;
+      std::vector<std::uint32_t> tried{id};
       for (const std::uint32_t simplex : clusters_[id].simplices) {
         for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
           const std::uint32_t other_cluster = cluster_of_[neighbour.value];
-          if (other_cluster == kNone || root(other_cluster) == id) continue;
+          if (other_cluster == kNone || other_cluster == id) continue;
           const std::uint32_t other = root(other_cluster);
+          if (std::find(tried.begin(), tried.end(), other) != tried.end()) continue;
+          tried.push_back(other);
           double width = 0.0;
           for (const PointId vertex : ids) {
             width = std::max(width, std::abs(clusters_[other].plane.dot(point(vertex)) - 1.0));
@@ -147,49 +145,118 @@ class Merger {
     }
   }
 
-  /// Facets are numbered by their first simplex, so the order does not depend on how they were merged.
-  FacetClusters number_facets() const {
-    FacetClusters facets;
-    facets.facet_of_simplex.assign(complex_.row_count, FacetId{});
-    facets.simplices.values.reserve(complex_.row_count);
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
-      if (facets.facet_of_simplex[simplex].valid()) continue;
-      const FacetId facet{static_cast<std::uint32_t>(facets.facet_count())};
-      std::vector<std::uint32_t> members{simplex};
-      const double* from = complex_.plane(SimplexId{simplex}).data();
-      if (cluster_of_[simplex] != kNone) {
-        const Cluster& cluster = clusters_[root(cluster_of_[simplex])];
-        members = cluster.simplices;
-        std::sort(members.begin(), members.end());
-        from = cluster.plane.data();
-      }
-      for (const std::uint32_t member : members) facets.facet_of_simplex[member] = facet;
-      facets.simplices.values.insert(facets.simplices.values.end(), members.begin(), members.end());
-      facets.simplices.begin.push_back(static_cast<std::uint32_t>(facets.simplices.values.size()));
-      facets.planes.insert(facets.planes.end(), from, from + complex_.rank);
+  /// Regular rows first, then simplices beside a merged facet, then the merged facets' simplices, facet by
+  /// facet. Few rows move where few are merged: what is in its part already stays.
+  void order_rows() {
+    const auto count = static_cast<std::uint32_t>(complex_.row_count);
+    std::vector<std::uint32_t> merged_of(count, kNone);  // facet among the merged ones
+    std::uint32_t merged_count = 0, merged_simplices = 0;
+    for (const Cluster& cluster : clusters_) {
+      if (cluster.simplices.size() < 2) continue;
+      for (const std::uint32_t simplex : cluster.simplices) merged_of[simplex] = merged_count;
+      merged_simplices += static_cast<std::uint32_t>(cluster.simplices.size());
+      merged_planes_.push_back(cluster.plane);
+      ++merged_count;
     }
-    return facets;
+    std::vector<std::uint32_t> beside, merged;
+    std::vector<std::uint8_t> is_regular(count, 1);
+    for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
+      if (!has_flat_ridge_[simplex] || merged_of[simplex] == kNone) continue;
+      merged.push_back(simplex);
+      is_regular[simplex] = 0;
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+        if (merged_of[neighbour.value] != kNone || !is_regular[neighbour.value]) continue;
+        is_regular[neighbour.value] = 0;
+        beside.push_back(neighbour.value);
+      }
+    }
+    std::sort(beside.begin(), beside.end());
+    // Merged facets in the order of their first simplex, each one's simplices ascending.
+    std::vector<std::uint32_t> rank_of(merged_count, kNone), planes_order;
+    for (const std::uint32_t simplex : merged) {
+      if (rank_of[merged_of[simplex]] != kNone) continue;
+      rank_of[merged_of[simplex]] = static_cast<std::uint32_t>(planes_order.size());
+      planes_order.push_back(merged_of[simplex]);
+    }
+    std::stable_sort(merged.begin(), merged.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return rank_of[merged_of[a]] < rank_of[merged_of[b]];
+    });
+    layout_.simplicial = count - merged_simplices;
+    layout_.regular = layout_.simplicial - beside.size();
+    layout_.facets = layout_.simplicial + merged_count;
+    layout_.merged_begin.push_back(static_cast<std::uint32_t>(layout_.simplicial));
+    for (std::size_t i = 0; i < merged.size(); ++i) {
+      const FacetId facet{static_cast<std::uint32_t>(layout_.simplicial) + rank_of[merged_of[merged[i]]]};
+      layout_.facet_of_merged.push_back(facet);
+      if (i + 1 == merged.size() || merged_of[merged[i + 1]] != merged_of[merged[i]]) {
+        layout_.merged_begin.push_back(static_cast<std::uint32_t>(layout_.simplicial + i + 1));
+      }
+    }
+    std::vector<Vector> ordered;
+    for (const std::uint32_t from : planes_order) ordered.push_back(std::move(merged_planes_[from]));
+    merged_planes_ = std::move(ordered);
+
+    // Regular rows behind the front part fill the places that others leave there.
+    std::vector<std::uint32_t> tail = beside;
+    tail.insert(tail.end(), merged.begin(), merged.end());
+    std::vector<std::uint32_t> old_of_new(count);
+    std::iota(old_of_new.begin(), old_of_new.end(), 0u);
+    std::uint32_t from = static_cast<std::uint32_t>(layout_.regular);
+    for (std::uint32_t row = 0; row < layout_.regular; ++row) {
+      if (is_regular[row]) continue;
+      while (!is_regular[from]) ++from;
+      old_of_new[row] = from++;
+    }
+    std::copy(tail.begin(), tail.end(), old_of_new.begin() + static_cast<std::ptrdiff_t>(layout_.regular));
+    permute_rows(complex_, old_of_new);
+    permute_values(determinants_, old_of_new);
   }
 
-  const SimplicialComplex& complex_;
+  static void permute_values(std::span<double> values, std::span<const std::uint32_t> old_of_new) {
+    std::vector<std::pair<std::uint32_t, double>> moved;
+    for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
+      if (old_of_new[row] != row) moved.emplace_back(row, values[old_of_new[row]]);
+    }
+    for (const auto& [row, value] : moved) values[row] = value;
+  }
+
+  /// Facet planes and determinants take the place of the simplices': a merged facet's row is never behind its
+  /// first simplex.
+  FacetLayout take_planes() {
+    const std::size_t rank_of_points = complex_.rank;
+    for (std::size_t m = 0; m < merged_planes_.size(); ++m) {
+      const std::size_t facet = layout_.simplicial + m;
+      std::copy_n(merged_planes_[m].data(), rank_of_points, complex_.planes.data() + facet * rank_of_points);
+      double sum = 0.0;
+      for (std::size_t i = layout_.merged_begin[m]; i < layout_.merged_begin[m + 1]; ++i) sum += determinants_[i];
+      determinants_[facet] = sum;
+    }
+    return std::move(layout_);
+  }
+
+  SimplicialComplex& complex_;
   const double* points_;
-  std::span<const double> determinants_;
+  std::span<double> determinants_;
   double tolerance_;
-  std::vector<bool> has_flat_ridge_;
+  std::vector<std::uint8_t> has_flat_ridge_;
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
+  std::vector<Vector> merged_planes_;
+  std::vector<std::uint32_t> stamp_of_point_;
+  std::uint32_t stamp_ = 0;
+  FacetLayout layout_;
 };
 
 /// Do the normals of these facets span all dimensions? Gram-Schmidt, done as soon as they do.
-bool normals_span(const FacetClusters& facets, std::span<const std::uint32_t> incident, std::size_t rank) {
+bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_t> incident) {
   // Normals closer than this to the span of others are taken to lie in it: merged planes agree with the true
   // ones to about roundoff over the facet's size, far below.
   constexpr double kIndependent = 1e-7;
-  const auto size = static_cast<Eigen::Index>(rank);
+  const auto size = static_cast<Eigen::Index>(complex.rank);
   Eigen::MatrixXd found(size, size);
   Eigen::Index count = 0;
   for (const std::uint32_t facet : incident) {
-    Vector normal = ConstRow(facets.planes.data() + std::size_t{facet} * rank, size).normalized();
+    Vector normal = ConstRow(complex.plane(SimplexId{facet}).data(), size).normalized();
     for (int pass = 0; pass < 2; ++pass) {
       normal -= found.leftCols(count) * (found.leftCols(count).transpose() * normal);
     }
@@ -203,33 +270,33 @@ bool normals_span(const FacetClusters& facets, std::span<const std::uint32_t> in
 
 }  // namespace
 
-FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
-                             std::span<const double> determinants, double tolerance) {
+FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,
+                           double tolerance) {
   return Merger(complex, points, determinants, tolerance).run();
 }
 
-std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetClusters& facets,
+FacetLayout simplicial_layout(const SimplicialComplex& complex) {
+  FacetLayout layout;
+  layout.regular = layout.simplicial = layout.facets = complex.row_count;
+  layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
+  return layout;
+}
+
+std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count) {
-  // Incidences of the points that touch a merged facet; the others are vertices without a question.
-  std::vector<bool> is_vertex(point_count, false), in_doubt(point_count, false);
-  std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
-  for (std::size_t facet = 0; facet < facets.facet_count(); ++facet) {
-    const auto members = facets.simplices.row(facet);
-    for (const std::uint32_t simplex : members) {
-      for (const PointId id : complex.vertices(SimplexId{simplex})) {
-        is_vertex[id.value] = true;
-        if (members.size() > 1) in_doubt[id.value] = true;
-      }
-    }
+  // All vertices of a regular facet are vertices; the other points are looked at.
+  std::vector<bool> is_vertex(point_count, false);
+  for (std::uint32_t row = 0; row < layout.regular; ++row) {
+    for (const PointId id : complex.vertices(SimplexId{row})) is_vertex[id.value] = true;
   }
+  std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
-  for (std::uint32_t facet = 0; facet < facets.facet_count(); ++facet) {
-    for (const std::uint32_t simplex : facets.simplices.row(facet)) {
-      for (const PointId id : complex.vertices(SimplexId{simplex})) {
-        if (!in_doubt[id.value] || last_facet[id.value] == facet) continue;
-        last_facet[id.value] = facet;
-        incidences.emplace_back(id.value, facet);
-      }
+  for (std::uint32_t row = static_cast<std::uint32_t>(layout.regular); row < complex.row_count; ++row) {
+    const std::uint32_t facet = layout.facet_of(SimplexId{row}).value;
+    for (const PointId id : complex.vertices(SimplexId{row})) {
+      if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
+      last_facet[id.value] = facet;
+      incidences.emplace_back(id.value, facet);
     }
   }
   std::sort(incidences.begin(), incidences.end());
@@ -239,7 +306,7 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetClu
     for (end = begin; end < incidences.size() && incidences[end].first == incidences[begin].first; ++end) {
       around.push_back(incidences[end].second);
     }
-    is_vertex[incidences[begin].first] = normals_span(facets, around, complex.rank);
+    is_vertex[incidences[begin].first] = normals_span(complex, around);
   }
   return is_vertex;
 }

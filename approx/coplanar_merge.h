@@ -7,19 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/id_rows.h"
+#include "approx/facet_layout.h"
 #include "core/ids.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
-
-/// Clusters of simplices: facet f is the simplices of row f, connected, with one plane.
-struct FacetClusters {
-  std::vector<FacetId> facet_of_simplex;
-  IdRows simplices;            ///< ascending in each row
-  std::vector<double> planes;  ///< facets x rank: dual vertex of the facet's plane, in the frame
-  std::size_t facet_count() const { return simplices.begin.size() - 1; }
-};
 
 /// Groups the simplices into facets.
 ///
@@ -29,15 +21,19 @@ struct FacetClusters {
 ///           plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
 ///           squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
-/// Returns   one facet a simplex, in order, when no ridge is flat.
+/// Changes   the rows of the complex are put into the order of FacetLayout; row f of complex.planes becomes the
+///           plane of facet f, determinants[f] the sum over its simplices.
 /// Cost      O(s rank^2) for s simplices, plus the fits.
-FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
-                             std::span<const double> determinants, double tolerance);
+FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,
+                           double tolerance);
+
+/// The layout without merging.
+FacetLayout simplicial_layout(const SimplicialComplex& complex);
 
 /// The points that are vertices of the merged hull: those whose facets' normals span all dimensions. Points
-/// in the middle of a facet, ridge or edge are in the complex but are no vertices.
-/// Returns one flag a point.
-std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetClusters& facets,
+/// in the middle of a facet, ridge or edge are in the complex but are no vertices. `complex` is as
+/// merge_coplanar left it. Returns one flag a point.
+std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count);
 
 }  // namespace ndhull

@@ -56,17 +56,18 @@ void map_normals(const Frame& frame, const double* planes, std::size_t count, do
 }
 
 /// Smallest and largest product of each merged facet's normal with its simplices' vertices.
-void cluster_dots(const SimplicialComplex& complex, const FacetClusters& clusters, const CertificatePoints& points,
-                  const double* normals, std::span<double> low, std::span<double> high) {
+void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, const CertificatePoints& points,
+                 const double* normals, std::span<double> low, std::span<double> high) {
   const std::size_t dimension = points.dimension;
   std::vector<std::uint32_t> last_facet(points.row_of_point.size(), FacetId::kNone);
-  for (std::uint32_t facet = 0; facet < clusters.facet_count(); ++facet) {
+  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet) {
     double smallest = HUGE_VAL, largest = -HUGE_VAL;
     const double* normal = normals + facet * dimension;
-    for (const std::uint32_t simplex : clusters.simplices.row(facet)) {
+    const std::size_t merged = facet - layout.simplicial;
+    for (std::uint32_t simplex = layout.merged_begin[merged]; simplex < layout.merged_begin[merged + 1]; ++simplex) {
       for (const PointId id : complex.vertices(SimplexId{simplex})) {
         if (last_facet[id.value] == facet) continue;
-        last_facet[id.value] = facet;
+        last_facet[id.value] = static_cast<std::uint32_t>(facet);
         const double* point = points.rows.data() + std::size_t{points.row_of_point[id.value]} * dimension;
         double dot = 0.0;
         for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
@@ -118,19 +119,19 @@ CertificatePoints gather_certificate_points(const PointView& points, const Frame
   return result;
 }
 
-FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clusters, const Frame& frame,
+FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
                             const LengthUnit& unit, double covered_gauge) {
   const std::size_t dimension = frame.dimension;
-  const std::size_t count = clusters != nullptr ? clusters->facet_count() : complex.row_count;
+  const std::size_t count = layout.facets;
   FacetTable table;
-  if (clusters == nullptr && frame.rank == dimension) {
+  if (frame.rank == dimension) {
     table.normals = std::move(complex.planes);
     map_normals(frame, table.normals.data(), count, table.normals.data());
+    table.normals.discard_from(count * dimension);
   } else {
     table.normals = HugeArray<double>(count * dimension);
-    map_normals(frame, clusters != nullptr ? clusters->planes.data() : complex.planes.data(), count,
-                table.normals.data());
+    map_normals(frame, complex.planes.data(), count, table.normals.data());
     complex.planes = HugeArray<double>();
   }
   table.offsets = HugeArray<double>(count);
@@ -139,11 +140,9 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clu
   table.areas = HugeArray<double>(count);
   const std::span<const double> normals(table.normals.data(), count * dimension);
   const std::span<double> low(table.inner.data(), count), high(table.areas.data(), count);
-  if (clusters != nullptr) {
-    cluster_dots(complex, *clusters, points, normals.data(), low, high);
-  } else {
-    own_dots(complex, dimension, normals, points.rows, points.row_of_point, low, high);
-  }
+  own_dots(complex, dimension, normals, points.rows, points.row_of_point, low.first(layout.simplicial),
+           high.first(layout.simplicial));
+  merged_dots(complex, layout, points, normals.data(), low, high);
   const std::span<double> highest(table.outer.data(), count);
   max_dots(dimension, normals, points.rows, highest);
 
@@ -172,13 +171,7 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clu
     table.max_width = std::max(table.max_width, outer - inner);
     table.roundoff = std::max(table.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
 
-    double determinant = 0.0;
-    if (clusters == nullptr) {
-      determinant = determinants[facet];
-    } else {
-      for (const std::uint32_t simplex : clusters->simplices.row(facet)) determinant += determinants[simplex];
-    }
-    const double cone = determinant * volume_per_determinant;
+    const double cone = determinants[facet] * volume_per_determinant;
     table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
     table.volume += cone;
     table.area += table.areas[facet];

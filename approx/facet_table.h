@@ -43,15 +43,15 @@ struct FacetTable {
 
 /// Makes planes, certificates and areas of all facets.
 ///
-/// Shapes    clusters: null when every simplex is a facet of its own; then the complex's planes are consumed
-///           (turned into the normals in place where the shapes allow).
+/// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
+///           consumed: turned into the normals in place where the shapes allow.
 ///           covered_gauge: every input point that is no certificate point lies in the hull of those that are,
 ///           scaled by 1 + this about the frame's centre.
 /// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
 ///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
 /// Cost      facets x points x dimension fused multiply-adds.
-FacetTable make_facet_table(SimplicialComplex& complex, const FacetClusters* clusters, const Frame& frame,
+FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
                             const LengthUnit& unit, double covered_gauge);
 

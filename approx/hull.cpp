@@ -44,22 +44,21 @@ double Hull::input_per_length_unit(FacetId facet) const {
 }
 
 std::span<const PointId> Hull::vertices_of(FacetId facet) const {
-  return merged_ ? as_ids<PointId>(facet_vertices_.row(facet.value)) : simplices.vertices(SimplexId{facet.value});
+  if (facet.value < layout_.regular) return simplices.vertices(SimplexId{facet.value});
+  return as_ids<PointId>(facet_vertices_.row(facet.value - layout_.regular));
 }
 
 std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
-  if (merged_) return as_ids<FacetId>(facet_neighbours_.row(facet.value));
+  if (facet.value >= layout_.regular) return as_ids<FacetId>(facet_neighbours_.row(facet.value - layout_.regular));
   const auto neighbours = simplices.neighbours(SimplexId{facet.value});
   return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
 }
 
 std::span<const SimplexId> Hull::simplices_of(FacetId facet) const {
-  if (merged_) return as_ids<SimplexId>(facet_simplices_.row(facet.value));
-  return {own_ids_.data() + facet.value, 1};
-}
-
-FacetId Hull::facet_of(SimplexId simplex) const {
-  return merged_ ? facet_of_simplex_[simplex.value] : FacetId{simplex.value};
+  if (is_simplicial(facet)) return {own_ids_.data() + facet.value, 1};
+  const std::size_t merged = facet.value - layout_.simplicial;
+  const std::uint32_t begin = layout_.merged_begin[merged];
+  return {own_ids_.data() + begin, layout_.merged_begin[merged + 1] - begin};
 }
 
 }  // namespace ndhull

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "approx/facet_layout.h"
 #include "approx/length_unit.h"
 #include "core/huge_array.h"
 #include "core/id_rows.h"
@@ -87,7 +88,7 @@ class Hull {
   std::vector<double> subspace_equations;  ///< (dimension - rank) rows of dimension + 1: normal, offset
 
   std::vector<PointId> vertices;  ///< ascending; no redundant ones
-  SimplicialComplex simplices;    ///< compacted; planes are the growth's dual planes or empty
+  SimplicialComplex simplices;    ///< compacted; without planes: those of the facets are here
 
   double area = 0.0;         ///< of the hull of the input, input units
   double volume = 0.0;
@@ -102,8 +103,8 @@ class Hull {
   /// With unit_cube: the extent of each column; otherwise empty.
   const std::vector<double>& unit_cube_extents() const { return length_unit_.extents(); }
 
-  std::size_t facet_count() const { return facet_count_; }
-  std::size_t simplicial_facet_count() const { return simplicial_facet_count_; }
+  std::size_t facet_count() const { return layout_.facets; }
+  std::size_t simplicial_facet_count() const { return layout_.simplicial; }
 
   std::span<const double> normal(FacetId facet) const { return {normals_.data() + facet.value * dimension, dimension}; }
   double offset(FacetId facet) const;
@@ -119,18 +120,15 @@ class Hull {
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
-  FacetId facet_of(SimplexId simplex) const;
-  bool is_simplicial(FacetId facet) const { return simplices_of(facet).size() == 1; }
+  FacetId facet_of(SimplexId simplex) const { return layout_.facet_of(simplex); }
+  bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
 
  private:
   friend class HullBuilder;
-  std::size_t facet_count_ = 0;
-  std::size_t simplicial_facet_count_ = 0;
-  bool merged_ = false;  // false: facet f is simplex f, and the tables of the complex serve
+  FacetLayout layout_;
   HugeArray<double> normals_, centred_offsets_, outer_, inner_, areas_;
-  IdRows facet_vertices_, facet_neighbours_, facet_simplices_;
-  std::vector<FacetId> facet_of_simplex_;
-  std::vector<SimplexId> own_ids_;  // not merged: 0, 1, 2, ...
+  IdRows facet_vertices_, facet_neighbours_;  // row f - layout_.regular: facets that are no mere simplex
+  std::vector<SimplexId> own_ids_;            // 0, 1, 2, ...
   LengthUnit length_unit_;
 };
 

@@ -34,7 +34,7 @@ namespace ndhull {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Distance in planes of the hull between a facet and the gauge of y: a.y - 1.
+/// Gauge of y above the simplex with this plane: a.y - 1, as one chain of fused multiply-adds a parity.
 template <std::size_t D>
 HWY_INLINE double gauge_above(const double* HWY_RESTRICT plane, const double* HWY_RESTRICT y) {
   double even = -1.0, odd = 0.0;
@@ -58,6 +58,13 @@ HWY_INLINE std::uint32_t slot_of(const std::uint32_t* row, std::uint32_t value) 
     if (found >= 0) return static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(found);
   }
   return D;
+}
+
+HWY_INLINE std::uint64_t scramble(std::uint64_t x) {  // splitmix64 (Steele, Lea, Flood, 2014)
+  x += 0x9E37'79B9'7F4A'7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58'476D'1CE4'E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D0'49BB'1331'11EBu;
+  return x ^ (x >> 31);
 }
 
 constexpr std::uint32_t kNewBit = 0x8000'0000u;  // marks, in a visible simplex, the new one over its ridge
@@ -143,180 +150,8 @@ class Grower {
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
   double lowest_visible_ = 0.0;   // smallest gauge tested above the threshold
   double highest_hidden_ = 0.0;   // largest gauge tested not above it
-  struct Subridge {
-    std::uint64_t key;  // XOR of its vertices' random keys
-    std::uint32_t count;
-  };
-  std::vector<Subridge> subridges_;
+  std::vector<std::uint64_t> subridge_keys_;  // XOR of random keys of the vertices; 0: free
 };
-
-// Breadth first from `seed`. Neighbours are tested in batches: the fetches of a batch overlap, which is
-// where the time of an insertion went before (memory latency).
-template <std::size_t D>
-void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double threshold) {
-  alignas(64) double apex[D];
-  for (std::size_t k = 0; k < D; ++k) apex[k] = apex_in[k];
-  visible_count_ = 0;
-  horizon_count_ = 0;
-  double lowest = gauge_above<D>(plane(seed), apex);
-  double highest = -HUGE_VAL;
-  state_[seed] = SimplexState::kVisible;
-  visible_[0] = seed;
-  visible_gauge_[0] = lowest;
-  std::size_t visible_count = 1, horizon_count = 0;
-  for (std::size_t begin = 0, end = 0; begin < visible_count; begin = end) {
-    end = begin + kBatch < visible_count ? begin + kBatch : visible_count;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t* around = neighbours(visible_[i]);
-      for (std::size_t k = 0; k < D; ++k) {
-        const char* record = reinterpret_cast<const char*>(plane(around[k]));
-        __builtin_prefetch(record);
-        if (D > 8) __builtin_prefetch(record + 64);
-        __builtin_prefetch(state_ + around[k]);
-      }
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t* around = neighbours(visible_[i]);
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t neighbour = around[k];
-        SimplexState now = state_[neighbour];
-        if (now == SimplexState::kLive) {
-          const double gauge = gauge_above<D>(plane(neighbour), apex);
-          if (gauge > threshold) {
-            lowest = gauge < lowest ? gauge : lowest;
-            state_[neighbour] = SimplexState::kVisible;
-            visible_[visible_count] = neighbour;
-            visible_gauge_[visible_count] = gauge;
-            ++visible_count;
-            __builtin_prefetch(vertices(neighbour));
-            continue;
-          }
-          highest = gauge > highest ? gauge : highest;
-          state_[neighbour] = SimplexState::kHidden;
-          now = SimplexState::kHidden;
-        }
-        if (now == SimplexState::kHidden) {
-          horizon_[horizon_count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), neighbour};
-        }
-      }
-    }
-  }
-  visible_count_ = visible_count;
-  horizon_count_ = horizon_count;
-  lowest_visible_ = lowest;
-  highest_hidden_ = highest;
-}
-
-template <std::size_t D>
-void Grower<D>::forget_visible() {
-  for (std::size_t i = 0; i < visible_count_; ++i) state_[visible_[i]] = SimplexState::kLive;
-  for (std::size_t i = 0; i < horizon_count_; ++i) state_[horizon_[i].hidden] = SimplexState::kLive;
-}
-
-// One new simplex over each horizon ridge: the visible simplex's vertices with the one opposite the ridge
-// replaced by the apex. The visible simplex's neighbour entry is overwritten with the new row (marked), which
-// is what the matching reads; `undo_cone` puts it back.
-template <std::size_t D>
-void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
-  alignas(64) double apex[D];
-  for (std::size_t k = 0; k < D; ++k) apex[k] = point(apex_id)[k];
-  constexpr std::size_t kAhead = 8;
-  std::size_t free_count = work_.free_count;
-  std::size_t row_count = work_.complex.row_count;
-  for (std::size_t i = 0; i < horizon_count_; ++i) {
-    if (i + kAhead < horizon_count_) {
-      const HorizonRidge& later = horizon_[i + kAhead];
-      __builtin_prefetch(plane(later.hidden));
-      __builtin_prefetch(plane(visible_[later.visible_index]));
-      __builtin_prefetch(vertices(visible_[later.visible_index]), 1);
-      if (free_count > kAhead) {
-        __builtin_prefetch(plane(work_.free_rows[free_count - kAhead]), 1);
-        __builtin_prefetch(vertices(work_.free_rows[free_count - kAhead]), 1);
-      }
-    }
-    const HorizonRidge ridge = horizon_[i];
-    const std::uint32_t visible = visible_[ridge.visible_index];
-    const std::uint32_t row =
-        free_count > 0 ? work_.free_rows[--free_count] : static_cast<std::uint32_t>(row_count++);
-    new_rows_[i] = row;
-
-    const double* HWY_RESTRICT above = plane(visible);
-    const double* HWY_RESTRICT below = plane(ridge.hidden);
-    double* HWY_RESTRICT made = plane(row);
-    const double gauge_visible = visible_gauge_[ridge.visible_index];
-    const double gauge_hidden = gauge_above<D>(below, apex);
-    const double t = (gauge_visible - shift) / (gauge_visible - gauge_hidden);
-    for (std::size_t k = 0; k < D; ++k) made[k] = __builtin_fma(t, below[k] - above[k], above[k]);
-
-    const std::uint32_t* HWY_RESTRICT old_vertices = vertices(visible);
-    std::uint32_t* HWY_RESTRICT made_vertices = vertices(row);
-    for (std::size_t k = 0; k < D; ++k) made_vertices[k] = old_vertices[k];
-    made_vertices[ridge.slot] = apex_id;
-    std::uint32_t* HWY_RESTRICT around = made_vertices + D;
-    for (std::size_t k = 0; k < D; ++k) around[k] = kNoRow;
-    around[ridge.slot] = ridge.hidden;
-    state_[row] = SimplexState::kLive;
-    neighbours(visible)[ridge.slot] = row | kNewBit;
-  }
-  new_count_ = horizon_count_;
-  work_.free_count = free_count;
-  work_.complex.row_count = row_count;
-}
-
-// For the new simplex over the ridge opposite slot k of f, the neighbour opposite its vertex v (slot m) lies
-// across the subridge S = f minus slots k and m. Turn around S: leave f through m; in each visible simplex
-// entered, leave opposite the vertex that the previous one shared besides S; stop at the first ridge that
-// has a new simplex over it. Both neighbour entries are set at once.
-template <std::size_t D>
-void Grower<D>::match_cone() {
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    const std::uint32_t row = new_rows_[i];
-    const HorizonRidge ridge = horizon_[i];
-    const std::uint32_t first = visible_[ridge.visible_index];
-    std::uint32_t* HWY_RESTRICT around = neighbours(row);
-    for (std::uint32_t m = 0; m < D; ++m) {
-      if (around[m] != kNoRow) continue;  // the ridge to the horizon, or matched from the other side
-      std::uint32_t current = first;
-      std::uint32_t entered = ridge.slot;  // slot of the ridge that S + its vertex came from
-      std::uint32_t leave = m;
-      std::uint32_t next = neighbours(current)[leave];
-      while ((next & kNewBit) == 0) {
-        // S plus the vertex at `entered` is what current and next share; go on opposite that vertex.
-        const std::uint32_t pivot = vertices(current)[entered];
-        const std::uint32_t back = slot_of<D>(neighbours(next), current);
-        leave = slot_of<D>(vertices(next), pivot);
-        entered = back;
-        current = next;
-        next = neighbours(current)[leave];
-      }
-      const std::uint32_t partner = next & ~kNewBit;
-      around[m] = partner;
-      neighbours(partner)[entered] = row;
-    }
-  }
-}
-
-template <std::size_t D>
-void Grower<D>::undo_cone() {
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    neighbours(visible_[horizon_[i].visible_index])[horizon_[i].slot] = horizon_[i].hidden;
-    state_[new_rows_[i]] = SimplexState::kFree;
-    work_.free_rows[work_.free_count++] = new_rows_[i];
-  }
-  forget_visible();
-}
-
-template <std::size_t D>
-void Grower<D>::commit() {
-  constexpr std::size_t kAhead = 8;
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    if (i + kAhead < new_count_) __builtin_prefetch(neighbours(horizon_[i + kAhead].hidden), 1);
-    const HorizonRidge& ridge = horizon_[i];
-    std::uint32_t* around = neighbours(ridge.hidden);
-    around[slot_of<D>(around, visible_[ridge.visible_index])] = new_rows_[i];
-    state_[ridge.hidden] = SimplexState::kLive;
-  }
-}
 
 // Hill climbing on the dual graph: a linear program whose vertices are the simplices.
 template <std::size_t D>
@@ -376,70 +211,21 @@ void Grower<D>::partition(std::uint32_t apex) {
 }
 
 
-HWY_INLINE std::uint64_t scramble(std::uint64_t x) {  // splitmix64 (Steele, Lea, Flood, 2014)
-  x += 0x9E37'79B9'7F4A'7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D0'49BB'1331'11EBu;
-  return x ^ (x >> 31);
-}
-
-// Between one and two of the shift, at random so that no two points are moved alike: points that lie on one
-// plane would stay on one plane.
+// Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
+// before is then moved below most of them, and they stay (on cubes that halves what is made). Partly random:
+// were the shift an affine function of the coordinates, points on one plane would stay on one plane.
 template <std::size_t D>
 double Grower<D>::draw_shift(std::uint32_t apex_id, unsigned attempt) const {
   const std::uint64_t random = scramble(work_.options.seed ^ scramble((std::uint64_t{apex_id} << 8) + attempt));
-  return work_.options.shift * (1.0 + static_cast<double>(random >> 11) * 0x1p-53);
-}
-
-// The cone's base must be a sphere: each subridge in exactly two new simplices, and all connected. The turn
-// around subridges cannot tell a pinched horizon from a sound one, so doubtful insertions are looked at.
-template <std::size_t D>
-bool Grower<D>::cone_is_sphere() {
-  // Each key has to come exactly twice: open addressing, 2^k entries, half of them free.
-  std::size_t mask = 63;
-  while (mask < 4 * new_count_ * D) mask = 2 * mask + 1;  // at most new_count D / 2 different keys
-  subridges_.assign(mask + 1, {0, 0});
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    const std::uint32_t* ids = vertices(new_rows_[i]);
-    const std::uint32_t apex_slot = horizon_[i].slot;
-    std::uint64_t key_of[D], all = 1;
-    for (std::uint32_t k = 0; k < D; ++k) all ^= key_of[k] = k == apex_slot ? 0 : scramble(ids[k]);
-    for (std::uint32_t k = 0; k < D; ++k) {
-      if (k == apex_slot) continue;
-      const std::uint64_t key = all ^ key_of[k];
-      std::size_t at = key & mask;
-      while (subridges_[at].count != 0 && subridges_[at].key != key) at = (at + 1) & mask;
-      subridges_[at].key = key;
-      const std::uint32_t count = ++subridges_[at].count;
-      if (count > 2) return false;
-      open += count == 1 ? 1 : 0;
-      open -= count == 2 ? 1 : 0;
-    }
-  }
-  if (open != 0) return false;
-  // Connected: walk from the first new simplex. kVisible marks those reached; new ones are kLive before.
-  std::vector<std::uint32_t> reached{new_rows_[0]};
-  for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kFree;
-  state_[reached[0]] = SimplexState::kLive;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const std::uint32_t* around = neighbours(reached[i]);
-    for (std::size_t k = 0; k < D; ++k) {
-      if (state_[around[k]] == SimplexState::kFree) {
-        state_[around[k]] = SimplexState::kLive;
-        reached.push_back(around[k]);
-      }
-    }
-  }
-  const bool connected = reached.size() == new_count_;
-  for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kLive;
-  return connected;
+  const double chance = static_cast<double>(random >> 11) * 0x1p-53;
+  const double inserted = static_cast<double>(work_.counters.insertions);
+  constexpr double kRising = 0.85;        // of the interval; the rest is left to chance
+  constexpr double kHalfRisen = 64.0;     // insertions
+  return work_.options.shift * (1.0 + kRising * inserted / (inserted + kHalfRisen) + (1.0 - kRising) * chance);
 }
 
 template <std::size_t D>
 typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32_t seed) {
-  // Decisions clearer than this need no second look: some ten times the error of one gauge in the frame.
-  constexpr double kCertain = 4e-15;
   constexpr unsigned kAttempts = 8;
   const double low = work_.options.shift;
   PhaseClock clock(work_.measure_phases);
@@ -448,16 +234,13 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     find_visible(point(apex_id), seed, shift);
     clock.lap(work_.counters.seconds_visible);
     if (!room_for_cone()) return Outcome::kNoRoom;
-    double clearance = std::min(lowest_visible_ - shift, shift - highest_hidden_);
-    if (lowest_visible_ > 2.0 * low && highest_hidden_ < -low) {
-      // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
-      shift = 0.0;
-      clearance = low;
-    }
+    // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
+    const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
+    if (certain) shift = 0.0;
     make_cone(apex_id, shift);
     clock.lap(work_.counters.seconds_cone);
     match_cone();
-    const bool sound = clearance > kCertain || (horizon_count_ > 0 && cone_is_sphere());
+    const bool sound = certain || (horizon_count_ > 0 && cone_is_sphere());
     clock.lap(work_.counters.seconds_match);
     if (!sound) {
       ++work_.counters.rejected;

@@ -9,7 +9,9 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
+#include "core/cone-inl.h"
 #include "core/grower-inl.h"
+#include "core/visible_set-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

@@ -78,7 +78,7 @@ void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::s
                  std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
                  std::span<double> high) {
   const std::size_t width = D > 0 ? D : dimension;
-  for (std::size_t row = 0; row < complex.row_count; ++row) {
+  for (std::size_t row = 0; row < low.size(); ++row) {
     const double* normal = normals.data() + row * width;
     double smallest = HUGE_VAL, largest = -HUGE_VAL;
     for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
@@ -90,6 +90,34 @@ void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::s
     }
     low[row] = smallest;
     high[row] = largest;
+  }
+}
+
+// Neighbours are fetched some simplices ahead: they lie anywhere in memory.
+template <std::size_t D>
+void mark_flat_of(const SimplicialComplex& complex, const double* points, double tolerance,
+                  std::span<std::uint8_t> is_flat) {
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t row = 0; row < complex.row_count; ++row) {
+    if (row + kAhead < complex.row_count) {
+      for (const SimplexId later : complex.neighbours(SimplexId{static_cast<std::uint32_t>(row + kAhead)})) {
+        __builtin_prefetch(complex.neighbours(later).data());
+        __builtin_prefetch(complex.vertices(later).data());
+      }
+    }
+    const SimplexId simplex{static_cast<std::uint32_t>(row)};
+    const double* plane = complex.plane(simplex).data();
+    for (const SimplexId neighbour : complex.neighbours(simplex)) {
+      const auto back = complex.neighbours(neighbour);
+      std::size_t slot = 0;
+      while (back[slot] != simplex) ++slot;
+      const double* opposite = points + std::size_t{complex.vertices(neighbour)[slot].value} * D;
+      double gauge = -1.0;
+      for (std::size_t k = 0; k < D; ++k) gauge = __builtin_fma(plane[k], opposite[k], gauge);
+      if (gauge <= -tolerance) continue;
+      is_flat[row] = 1;
+      is_flat[neighbour.value] = 1;
+    }
   }
 }
 
@@ -181,6 +209,17 @@ void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::
   }
 }
 
+void mark_flat_any(const SimplicialComplex& complex, const double* points, double tolerance,
+                   std::span<std::uint8_t> is_flat) {
+  switch (complex.rank) {
+#define NDHULL_CASE(D) \
+  case D: return mark_flat_of<D>(complex, points, tolerance, is_flat);
+    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
+#undef NDHULL_CASE
+    default: NDHULL_CHECK(!"rank is checked before growth starts");
+  }
+}
+
 void solve_simplices_any(SimplicialComplex& complex, const double* points, bool replace_planes,
                          std::span<double> determinants) {
   switch (complex.rank) {
@@ -200,6 +239,7 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 HWY_EXPORT(max_dots_any);
 HWY_EXPORT(own_dots_any);
+HWY_EXPORT(mark_flat_any);
 HWY_EXPORT(solve_simplices_any);
 
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
@@ -211,6 +251,11 @@ void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span
               std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
               std::span<double> high) {
   HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, dimension, normals, points, row_of_point, low, high);
+}
+
+void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
+               std::span<std::uint8_t> is_flat) {
+  HWY_DYNAMIC_DISPATCH(mark_flat_any)(complex, points, tolerance, is_flat);
 }
 
 void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,

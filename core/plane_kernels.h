@@ -19,13 +19,21 @@ namespace ndhull {
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot);
 
-/// Smallest and largest dot product of each simplex's normal with its own vertices.
+/// Smallest and largest dot product of each of the first simplices' normals with their own vertices.
 ///
-/// Shapes  normals: row_count x dimension; points: rows x dimension; row_of_point: the row of each PointId in
-///         `points`; low, high: row_count. Error as above.
+/// Shapes  normals: rows x dimension; points: any number of rows x dimension; row_of_point: the row of each
+///         PointId in `points`; low, high: one a simplex, for as many as wanted. Error as above.
 void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
               std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
               std::span<double> high);
+
+/// Marks the simplices that have a flat ridge: one across which the opposite vertex of either side is less than
+/// `tolerance` (a gauge) below the other side's plane.
+///
+/// Shapes  points: any number of rows x rank; is_flat: row_count, 1 for such a simplex.
+/// Cost    rank plane evaluations and rank random reads of neighbours a simplex.
+void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
+               std::span<std::uint8_t> is_flat);
 
 /// Solves for the plane through each simplex's own vertices and the volume of its cone to the origin.
 ///

@@ -5,6 +5,18 @@
 
 namespace ndhull {
 
+namespace {
+
+void rename_neighbours(SimplicialComplex& complex, const std::vector<std::uint32_t>& new_of_old) {
+  const std::size_t rank = complex.rank;
+  for (std::size_t row = 0; row < complex.row_count; ++row) {
+    std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
+    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
+  }
+}
+
+}  // namespace
+
 void compact(SimplicialComplex& complex) {
   const std::size_t rank = complex.rank;
   std::vector<std::uint32_t> new_of_old(complex.row_count, SimplexId::kNone);
@@ -20,15 +32,32 @@ void compact(SimplicialComplex& complex) {
     }
     ++live;
   }
-  for (std::size_t row = 0; row < live; ++row) {
-    std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
-    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
-  }
   for (std::size_t row = live; row < complex.row_count; ++row) complex.state[row] = SimplexState::kFree;
   complex.row_count = live;
+  rename_neighbours(complex, new_of_old);
   complex.planes.discard_from(live * rank);
   complex.topology.discard_from(live * 2 * rank);
   complex.outside_head.discard_from(live);
+}
+
+void permute_rows(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
+  const std::size_t rank = complex.rank;
+  std::vector<std::uint32_t> moved, new_of_old(old_of_new.size()), topology;
+  std::vector<double> planes;
+  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
+    const std::size_t old = old_of_new[row];
+    new_of_old[old] = row;
+    if (old == row) continue;
+    moved.push_back(row);
+    planes.insert(planes.end(), complex.planes.data() + old * rank, complex.planes.data() + (old + 1) * rank);
+    topology.insert(topology.end(), complex.topology.data() + old * 2 * rank,
+                    complex.topology.data() + (old + 1) * 2 * rank);
+  }
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    std::copy_n(planes.data() + i * rank, rank, complex.planes.data() + moved[i] * rank);
+    std::copy_n(topology.data() + i * 2 * rank, 2 * rank, complex.topology.data() + moved[i] * 2 * rank);
+  }
+  if (!moved.empty()) rename_neighbours(complex, new_of_old);
 }
 
 }  // namespace ndhull

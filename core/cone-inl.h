@@ -1,0 +1,170 @@
+// The cone of new simplices over the horizon: planes, neighbours, check, commit or undo. Included once per
+// target by growth_kernels.cpp.
+
+#if defined(NDHULL_CONE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NDHULL_CONE_INL_H_
+#undef NDHULL_CONE_INL_H_
+#else
+#define NDHULL_CONE_INL_H_
+#endif
+
+#include "core/grower-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+
+// One new simplex over each horizon ridge: the visible simplex's vertices with the one opposite the ridge
+// replaced by the apex. The visible simplex's neighbour entry is overwritten with the new row (marked), which
+// is what the matching reads; `undo_cone` puts it back.
+template <std::size_t D>
+void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
+  alignas(64) double apex[D];
+  for (std::size_t k = 0; k < D; ++k) apex[k] = point(apex_id)[k];
+  constexpr std::size_t kAhead = 8;
+  std::size_t free_count = work_.free_count;
+  std::size_t row_count = work_.complex.row_count;
+  for (std::size_t i = 0; i < horizon_count_; ++i) {
+    if (i + kAhead < horizon_count_) {
+      const HorizonRidge& later = horizon_[i + kAhead];
+      __builtin_prefetch(plane(later.hidden));
+      __builtin_prefetch(plane(visible_[later.visible_index]));
+      __builtin_prefetch(vertices(visible_[later.visible_index]), 1);
+      if (free_count > kAhead) {
+        __builtin_prefetch(plane(work_.free_rows[free_count - kAhead]), 1);
+        __builtin_prefetch(vertices(work_.free_rows[free_count - kAhead]), 1);
+      }
+    }
+    const HorizonRidge ridge = horizon_[i];
+    const std::uint32_t visible = visible_[ridge.visible_index];
+    const std::uint32_t row =
+        free_count > 0 ? work_.free_rows[--free_count] : static_cast<std::uint32_t>(row_count++);
+    new_rows_[i] = row;
+
+    const double* HWY_RESTRICT above = plane(visible);
+    const double* HWY_RESTRICT below = plane(ridge.hidden);
+    double* HWY_RESTRICT made = plane(row);
+    const double gauge_visible = visible_gauge_[ridge.visible_index];
+    const double gauge_hidden = gauge_above<D>(below, apex);
+    const double t = (gauge_visible - shift) / (gauge_visible - gauge_hidden);
+    for (std::size_t k = 0; k < D; ++k) made[k] = __builtin_fma(t, below[k] - above[k], above[k]);
+
+    const std::uint32_t* HWY_RESTRICT old_vertices = vertices(visible);
+    std::uint32_t* HWY_RESTRICT made_vertices = vertices(row);
+    for (std::size_t k = 0; k < D; ++k) made_vertices[k] = old_vertices[k];
+    made_vertices[ridge.slot] = apex_id;
+    std::uint32_t* HWY_RESTRICT around = made_vertices + D;
+    for (std::size_t k = 0; k < D; ++k) around[k] = kNoRow;
+    around[ridge.slot] = ridge.hidden;
+    state_[row] = SimplexState::kLive;
+    neighbours(visible)[ridge.slot] = row | kNewBit;
+  }
+  new_count_ = horizon_count_;
+  work_.free_count = free_count;
+  work_.complex.row_count = row_count;
+}
+
+// For the new simplex over the ridge opposite slot k of f, the neighbour opposite its vertex v (slot m) lies
+// across the subridge S = f minus slots k and m. Turn around S: leave f through m; in each visible simplex
+// entered, leave opposite the vertex that the previous one shared besides S; stop at the first ridge that
+// has a new simplex over it. Both neighbour entries are set at once.
+template <std::size_t D>
+void Grower<D>::match_cone() {
+  for (std::size_t i = 0; i < new_count_; ++i) {
+    const std::uint32_t row = new_rows_[i];
+    const HorizonRidge ridge = horizon_[i];
+    const std::uint32_t first = visible_[ridge.visible_index];
+    std::uint32_t* HWY_RESTRICT around = neighbours(row);
+    for (std::uint32_t m = 0; m < D; ++m) {
+      if (around[m] != kNoRow) continue;  // the ridge to the horizon, or matched from the other side
+      std::uint32_t current = first;
+      std::uint32_t entered = ridge.slot;  // slot of the ridge that S + its vertex came from
+      std::uint32_t leave = m;
+      std::uint32_t next = neighbours(current)[leave];
+      while ((next & kNewBit) == 0) {
+        // S plus the vertex at `entered` is what current and next share; go on opposite that vertex.
+        const std::uint32_t pivot = vertices(current)[entered];
+        const std::uint32_t back = slot_of<D>(neighbours(next), current);
+        leave = slot_of<D>(vertices(next), pivot);
+        entered = back;
+        current = next;
+        next = neighbours(current)[leave];
+      }
+      const std::uint32_t partner = next & ~kNewBit;
+      around[m] = partner;
+      neighbours(partner)[entered] = row;
+    }
+  }
+}
+
+template <std::size_t D>
+void Grower<D>::undo_cone() {
+  for (std::size_t i = 0; i < new_count_; ++i) {
+    neighbours(visible_[horizon_[i].visible_index])[horizon_[i].slot] = horizon_[i].hidden;
+    state_[new_rows_[i]] = SimplexState::kFree;
+    work_.free_rows[work_.free_count++] = new_rows_[i];
+  }
+  forget_visible();
+}
+
+template <std::size_t D>
+void Grower<D>::commit() {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t i = 0; i < new_count_; ++i) {
+    if (i + kAhead < new_count_) __builtin_prefetch(neighbours(horizon_[i + kAhead].hidden), 1);
+    const HorizonRidge& ridge = horizon_[i];
+    std::uint32_t* around = neighbours(ridge.hidden);
+    around[slot_of<D>(around, visible_[ridge.visible_index])] = new_rows_[i];
+    state_[ridge.hidden] = SimplexState::kLive;
+  }
+}
+
+// The cone's base must be a sphere: no subridge in more than two new simplices, and all connected. The turn
+// around subridges pairs the new simplices of a pinched horizon as well, so doubtful insertions are looked at:
+// each pair's subridge must differ from that of all other pairs.
+template <std::size_t D>
+bool Grower<D>::cone_is_sphere() {
+  std::size_t mask = 63;  // open addressing, 2^k entries, half of them free
+  while (mask < new_count_ * D) mask = 2 * mask + 1;
+  subridge_keys_.assign(mask + 1, 0);
+  for (std::size_t i = 0; i < new_count_; ++i) {
+    const std::uint32_t row = new_rows_[i];
+    const std::uint32_t* ids = vertices(row);
+    const std::uint32_t* around = neighbours(row);
+    const std::uint32_t apex_slot = horizon_[i].slot;
+    std::uint64_t key_of[D], all = 1;
+    for (std::size_t k = 0; k < D; ++k) all ^= key_of[k] = k == apex_slot ? 0 : scramble(ids[k]);
+    for (std::size_t k = 0; k < D; ++k) {
+      if (k == apex_slot || around[k] < row) continue;  // each pair once
+      const std::uint64_t key = all ^ key_of[k];
+      std::size_t at = key & mask;
+      while (subridge_keys_[at] != 0) {
+        if (subridge_keys_[at] == key) return false;
+        at = (at + 1) & mask;
+      }
+      subridge_keys_[at] = key;
+    }
+  }
+  // Connected: walk from the first new simplex. kVisible marks those reached; new ones are kLive before.
+  std::vector<std::uint32_t> reached{new_rows_[0]};
+  for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kFree;
+  state_[reached[0]] = SimplexState::kLive;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const std::uint32_t* around = neighbours(reached[i]);
+    for (std::size_t k = 0; k < D; ++k) {
+      if (state_[around[k]] == SimplexState::kFree) {
+        state_[around[k]] = SimplexState::kLive;
+        reached.push_back(around[k]);
+      }
+    }
+  }
+  const bool connected = reached.size() == new_count_;
+  for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kLive;
+  return connected;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
