@@ -19,7 +19,7 @@ struct ComplexCheck {
 /// Tests, for every live simplex: its vertices differ; each neighbour is live and names it back across the
 /// same ridge (the same rank-1 vertices); no ridge (as a vertex set) belongs to more or fewer than two
 /// simplices; all are connected; neighbouring vertex rows have opposite induced orientation.
-/// Cost  O(s rank log(s rank)) time and 12 rank bytes a simplex.
+/// Cost  O(s rank log(s rank)) time and 16 rank bytes a simplex.
 ComplexCheck check_complex(const SimplicialComplex& complex);
 
 }  // namespace ndhull

@@ -93,6 +93,7 @@ void locate_all(const SimplicialComplex& complex, const double* points, const Hu
                 std::span<LocatedPoint> located) {
   const std::size_t lanes = hn::Lanes(Tag());
   SimplexId start{0};
+  while (complex.state[start.value] != SimplexState::kLive) ++start.value;  // growth leaves free rows
   for (std::size_t begin = 0; begin < located.size(); begin += lanes) {
     LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
     const std::size_t used = std::min(lanes, located.size() - begin);
