@@ -1,25 +1,23 @@
-// What the commands' options have in common.
+// What the commands' options have in common: checks of what is written, with messages that say what to write.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 
 namespace ndhull {
 
-/// A number above 0; the help does not repeat what the option's line says.
-inline CLI::Validator positive() {
-  CLI::Validator validator = CLI::PositiveNumber;
-  return validator.description("");
-}
+/// A whole number in least .. most, in digits only: CLI11 alone would wrap -1 to the largest one.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most = UINT64_MAX);
+/// A finite number above 0.
+CLI::Validator positive_number();
+/// A path, which is not the empty word.
+CLI::Validator path_name();
 
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
-inline CLI::Validator thread_count() {
-  constexpr unsigned kMost = 1024;
-  CLI::Validator validator = CLI::Range(0U, kMost);
-  return validator.description("");
-}
+inline constexpr std::uint64_t kMostThreads = 1024;
 
 /// The example at the end of a command's help.
-inline std::string example(const std::string& text) { return "Example: " + text; }
+std::string example(const std::string& text);
 
 }  // namespace ndhull

@@ -1,7 +1,5 @@
 #include "tools/hull_command.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "core/error.h"
@@ -23,10 +21,10 @@ void add_hull_options(CLI::App& command, Arguments& arguments) {
   HullOptions& options = arguments.request.options;
   command.add_option("--max-facets", options.limits.max_facets, "limit: simplices of the growing hull")
       ->type_name("N")
-      ->check(positive());
+      ->check(whole_number(1));
   command.add_option("--max-seconds", options.limits.max_seconds, "limit: seconds of growth")
       ->type_name("S")
-      ->check(positive());
+      ->check(positive_number());
   command
       .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
       ->type_name("B");
@@ -38,11 +36,12 @@ void add_hull_options(CLI::App& command, Arguments& arguments) {
       .add_option("--threads", options.threads,
                   "0, the default: all cores; the result is the same for any number")
       ->type_name("N")
-      ->check(thread_count());
+      ->check(whole_number(0, kMostThreads));
   command
       .add_option("--seed", options.seed,
                   "of the shifts below roundoff that settle degenerate cases; default 1")
-      ->type_name("S");
+      ->type_name("S")
+      ->check(whole_number(0));
 }
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
@@ -50,7 +49,8 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
   CLI::Option* const planes =
       command
           .add_option("--planes", request.planes_path, "write the facets' planes: .ine, .npy, or Qhull text")
-          ->type_name("FILE");
+          ->type_name("FILE")
+          ->check(path_name());
   command
       .add_option("--plane-kind", arguments.plane_kind,
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
@@ -58,9 +58,11 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
       ->needs(planes);
   command.add_option("--vertices", request.vertices_path, "write the indices of the vertices: .npy or text")
-      ->type_name("FILE");
-  CLI::Option* const report =
-      command.add_option("--report", request.report_path, "write the report, JSON")->type_name("FILE");
+      ->type_name("FILE")
+      ->check(path_name());
+  CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
   command.add_flag("--facet-list", request.facet_list, "put every facet into the report")->needs(report);
   command
       .add_option("--format", arguments.format,
@@ -91,14 +93,6 @@ HullRequest complete_request(const CLI::App& command, const Arguments& arguments
   if (command.count("--format") > 0 && request.formats.empty()) {
     throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fs n\"");
   }
-  for (const char* const name : {"--planes", "--vertices", "--report"}) {
-    if (command.count(name) > 0 && command[name]->as<std::string>().empty()) {
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("{}: found an empty name, expected a file, or - for standard "
-                              "output; name one",
-                              name));
-    }
-  }
   if (!arguments.verify.empty()) {
     request.verify = arguments.verify == "exact" ? VerifyMode::kExact : VerifyMode::kFloating;
   }
@@ -113,6 +107,7 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("hull", "The convex hull of points, with certified planes; prints a summary.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
       ->type_name("")
+      ->check(path_name())
       ->required();
   add_hull_options(*command, *arguments);
   add_output_options(*command, *arguments);

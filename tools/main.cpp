@@ -49,6 +49,13 @@ std::string help_of(const CLI::App& app) {
   return chosen.empty() ? "ndhull --help" : "ndhull " + chosen.front()->get_name() + " --help";
 }
 
+std::string describe(const CLI::ParseError& error, const CLI::App& app) {
+  const auto* const extra = dynamic_cast<const CLI::ExtrasError*>(&error);
+  const std::vector<std::string> left = app.remaining(true);
+  if (extra == nullptr || left.empty()) return error.what();
+  return fmt::format("found \"{}\", expected an option or argument of this command", left.front());
+}
+
 int run(const std::vector<std::string>& arguments) {
   int exit_code = 0;
   CLI::App app{"Convex hulls in five and more dimensions, with a proven error bound on every facet.",
@@ -69,7 +76,7 @@ int run(const std::vector<std::string>& arguments) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return fail(kBadInput, "usage", fmt::format("{}; see {}", error.what(), help_of(app)));
+    return fail(kBadInput, "usage", fmt::format("{}; see {}", describe(error, app), help_of(app)));
   } catch (const ndhull::Error& error) {
     return fail(kBadInput, to_string(error.code()), error.what());
   } catch (const std::bad_alloc&) {

@@ -62,6 +62,10 @@ class PointWriter {
   char separator_ = ' ';
 };
 
+// What the readers and the engine can number: more is a slip of the finger that would fill a disk.
+constexpr std::uint64_t kMostRows = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMostColumns = 1'000'000;
+
 /// Families whose points are a finite set, which is taken whole unless a number is asked for.
 bool is_finite_family(PointFamily family) {
   return family == PointFamily::kCubeCorners || family == PointFamily::kCrossPolytope ||
@@ -81,14 +85,22 @@ void add_family_parameters(CLI::App& command, GenerateArguments& arguments) {
   command.add_option("--curve", arguments.curve, "cyclic: moment, or trigonometric (even dimensions)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"auto", "moment", "trigonometric"}).description(""));
-  command.add_option("--side", options.side, "lattice: points along each axis; default 3")->type_name("N");
+  command.add_option("--side", options.side, "lattice: points along each axis; default 3")
+      ->type_name("N")
+      ->check(whole_number(1));
   command
       .add_option("--lens-radius", options.lens_radius, "lens: radius of its two caps, above 1; default 10")
-      ->type_name("R");
-  command.add_option("--axes", options.axes, "ellipsoid: d lengths; default 1 1/2 .. 1/d")->type_name("A ..");
-  command.add_option("--clusters", options.cluster_count, "clusters: how many; default 10")->type_name("N");
+      ->type_name("R")
+      ->check(positive_number());
+  command.add_option("--axes", options.axes, "ellipsoid: d lengths; default 1 1/2 .. 1/d")
+      ->type_name("A ..")
+      ->check(positive_number());
+  command.add_option("--clusters", options.cluster_count, "clusters: how many; default 10")
+      ->type_name("N")
+      ->check(whole_number(1));
   command.add_option("--spread", options.spread, "clusters: standard deviation of a cloud; default 0.01")
-      ->type_name("S");
+      ->type_name("S")
+      ->check(positive_number());
 }
 
 }  // namespace
@@ -134,18 +146,23 @@ void add_generate_command(CLI::App& app) {
   GenerateOptions& options = arguments->options;
   command->add_option("FAMILY", arguments->family, "one of " + names)->type_name("")->required();
   command->add_option("-d,--dimension", options.dimension, "coordinates of a point; default 5")
-      ->type_name("D");
+      ->type_name("D")
+      ->check(whole_number(1, kMostColumns));
   CLI::Option* const count =
       command
           ->add_option(
               "-n,--count", options.count,
               "points; default 1000, and for cube-corners, cross-polytope, simplex and lattice all (0)")
-          ->type_name("N");
-  command->add_option("--seed", options.seed, "of the random numbers; default 1")->type_name("S");
+          ->type_name("N")
+          ->check(whole_number(0, kMostRows));
+  command->add_option("--seed", options.seed, "of the random numbers; default 1")
+      ->type_name("S")
+      ->check(whole_number(0));
   add_family_parameters(*command, *arguments);
   command
       ->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv or Qhull text; default - (text)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(path_name());
   command->add_flag("--float32", arguments->is_float, "round coordinates to float32");
   command->footer(example("ndhull generate sphere -d 7 -n 100000 --seed 3 -o sphere7.npy"));
   command->callback([arguments, count] {
@@ -171,7 +188,8 @@ void add_rbox_command(CLI::App& app) {
       ->type_name("")
       ->required();
   command->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv or text; default - (text)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(path_name());
   command->footer(example("ndhull rbox \"1000 s D5 t1\" | ndhull hull -"));
   command->callback([arguments] { write_rbox(arguments->path, arguments->text); });
 }

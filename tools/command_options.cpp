@@ -1,0 +1,42 @@
+#include "tools/command_options.h"
+
+#include <fmt/format.h>
+
+#include "tools/text_source.h"
+
+namespace ndhull {
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
+    std::size_t value = 0;
+    const char* const end = text.data() + text.size();
+    const bool is_number = parse_count(text.data(), end, value) == end && !text.empty();
+    if (is_number && value >= least && value <= most) return {};
+    const std::string range =
+        most == UINT64_MAX ? fmt::format("of at least {}", least) : fmt::format("from {} to {}", least, most);
+    return fmt::format("found \"{}\", expected a whole number {}, in digits", printable(text), range);
+  };
+  return {check, ""};
+}
+
+CLI::Validator positive_number() {
+  const auto check = [](const std::string& text) -> std::string {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    // What is no finite number is null.
+    if (parse_number(text.data(), end, value) == end && value > 0.0) return {};
+    return fmt::format("found \"{}\", expected a number above 0", printable(text));
+  };
+  return {check, ""};
+}
+
+CLI::Validator path_name() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "found an empty name, expected a file, or - for standard input or output" : "";
+  };
+  return {check, ""};
+}
+
+std::string example(const std::string& text) { return "Example: " + text; }
+
+}  // namespace ndhull
