@@ -24,18 +24,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Repair rounds after which the rest is reported, not chased. One or two are what degenerate inputs need.
 constexpr std::uint64_t kRepairRounds = 8;
 /// Points further inside than this need no look at their distance from each plane. [ratio]
 constexpr double kWellInside = 1e-9;
+/// Points from which on an early proof pays.
+constexpr std::size_t kManyPoints = 4096;
 /// Plane-times-point products that are worth certifying points near the hull one by one.
 constexpr double kAffordableProducts = 4e11;
 
 HullStatus status_of(GrowthStop stop) {
   switch (stop) {
-    case GrowthStop::kNoOutsidePoints: return HullStatus::kComplete;
+    case GrowthStop::kNoOutsidePoints:
+    case GrowthStop::kPaused: return HullStatus::kComplete;
     case GrowthStop::kFacetLimit: return HullStatus::kFacetLimit;
     case GrowthStop::kTimeLimit: return HullStatus::kTimeLimit;
     case GrowthStop::kMemoryLimit: return HullStatus::kMemoryLimit;
@@ -56,8 +61,8 @@ class HullBuilder {
     frame_ = fit_frame(points_);
     if (frame_.rank > kMaxRank) {
       throw Error(ErrorCode::kDimensionTooHigh, "points span " + std::to_string(frame_.rank) +
-                                                    " dimensions, expected at most " + std::to_string(kMaxRank) +
-                                                    "; project them to fewer");
+                                                    " dimensions, expected at most " +
+                                                    std::to_string(kMaxRank) + "; project them to fewer");
     }
     describe_input();
     if (frame_.rank == 0) return std::move(hull_);
@@ -133,8 +138,8 @@ class HullBuilder {
 
   GrowthStop poll(std::uint64_t points_left, double furthest_gauge) {
     const std::uint64_t rows = work_.complex.row_count - work_.free_count;
-    const std::uint64_t bytes = work_.complex.row_count * (16 * frame_.rank + 5) + coordinates_.size() * 8 +
-                                points_.rows * 12;
+    const std::uint64_t bytes =
+        work_.complex.row_count * (16 * frame_.rank + 5) + coordinates_.size() * 8 + points_.rows * 12;
     if (options_.progress) {
       options_.progress({Phase::kGrowth, points_left, rows, furthest_gauge, seconds_since(start_), bytes});
     }
@@ -160,6 +165,7 @@ class HullBuilder {
     detail("first partition", phase_start);
     const HullBall ball = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
     std::uint64_t searched_all = 0;
+    if (points_.rows > kManyPoints) prove_early(ball);
     for (std::uint64_t round = 0;; ++round) {
       phase_start = Clock::now();
       const GrowthStop stop = grow(work_);
@@ -168,7 +174,8 @@ class HullBuilder {
       phase_start = Clock::now();
       const std::vector<LocatedPoint> located =
           prove_inside(work_.complex, coordinates_.data(), ball, points_off_the_complex(), searched_all);
-      const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && put_back(located);
+      const bool repaired =
+          stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && put_back(located);
       if (!repaired) choose_certificate_points(located);
       seconds(Phase::kCertify) += seconds_since(phase_start);
       if (!repaired) break;
@@ -187,7 +194,25 @@ class HullBuilder {
     statistics.detail_seconds.emplace_back("points inside", seconds(Phase::kCertify));
   }
 
-  /// Points that are vertices of no simplex; marks those that are in certificate_wanted_.
+  /// Most of many points are well inside a small hull already. What is proven inside a part of the hull is
+  /// inside the whole, and the part's simplices are few and in cache.
+  void prove_early(const HullBall& ball) {
+    Clock::time_point start = Clock::now();
+    work_.options.pause_rows = 128 * frame_.rank;
+    const GrowthStop stop = grow(work_);
+    work_.options.pause_rows = 0;
+    seconds(Phase::kGrowth) += seconds_since(start);
+    if (stop != GrowthStop::kPaused) return;  // finished, or ended by a limit: the final proof comes next
+    start = Clock::now();
+    const std::vector<PointId> candidates = points_off_the_complex();
+    proven_.assign(points_.rows, false);
+    for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball, candidates)) {
+      if (point.gauge < -kWellInside) proven_[point.point.value] = true;
+    }
+    seconds(Phase::kCertify) += seconds_since(start);
+  }
+
+  /// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
   std::vector<PointId> points_off_the_complex() {
     certificate_wanted_.assign(points_.rows, false);
     for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) {
@@ -196,7 +221,7 @@ class HullBuilder {
     }
     std::vector<PointId> rest;
     for (std::uint32_t id = 0; id < points_.rows; ++id) {
-      if (!certificate_wanted_[id]) rest.push_back(PointId{id});
+      if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});
     }
     return rest;
   }
@@ -208,7 +233,8 @@ class HullBuilder {
       if (point.gauge <= 4.0 * work_.options.shift) continue;
       double gauge = -1.0;
       const auto plane = work_.complex.plane(point.simplex);
-      for (std::size_t k = 0; k < frame_.rank; ++k) gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
+      for (std::size_t k = 0; k < frame_.rank; ++k)
+        gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
       if (gauge <= 2.0 * work_.options.shift) continue;
       push_outside(work_, point.point.value, point.simplex.value, gauge);
       any = true;
@@ -216,8 +242,8 @@ class HullBuilder {
     return any;
   }
 
-  /// Vertices, and points so near the hull (or outside, after a limit) that only their distances will do. When
-  /// that would cost too much the points outside are covered by their gauge.
+  /// Vertices, and points so near the hull (or outside, after a limit) that only their distances will do.
+  /// When that would cost too much the points outside are covered by their gauge.
   void choose_certificate_points(const std::vector<LocatedPoint>& located) {
     std::size_t near_count = 0;
     double largest_gauge = 0.0;
@@ -255,7 +281,8 @@ class HullBuilder {
       return;
     }
     const Clock::time_point merge_start = Clock::now();
-    hull_.layout_ = merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
+    hull_.layout_ =
+        merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
     detail("coplanar merging", merge_start);
   }
 
@@ -270,9 +297,9 @@ class HullBuilder {
     coordinates_ = std::vector<double>();
     detail("vertices", start);
     start = Clock::now();
-    FacetTable table = make_facet_table(work_.complex, hull_.layout_, frame_, certificate,
-                                        {determinants_.data(), work_.complex.row_count}, hull_.length_unit_,
-                                        covered_gauge_);
+    FacetTable table =
+        make_facet_table(work_.complex, hull_.layout_, frame_, certificate,
+                         {determinants_.data(), work_.complex.row_count}, hull_.length_unit_, covered_gauge_);
     detail("facet table", start);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);
@@ -331,11 +358,14 @@ class HullBuilder {
   std::vector<double> coordinates_;  // points x rank, in the frame
   GrowthWork work_;
   std::vector<bool> certificate_wanted_;
+  std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
   double covered_gauge_ = 0.0;
   HugeArray<double> determinants_;
   std::vector<bool> is_vertex_;
 };
 
-Hull convex_hull(const PointView& points, const HullOptions& options) { return HullBuilder(points, options).run(); }
+Hull convex_hull(const PointView& points, const HullOptions& options) {
+  return HullBuilder(points, options).run();
+}
 
 }  // namespace ndhull

@@ -43,7 +43,8 @@ class Merger {
 
   PointId opposite_vertex(std::uint32_t neighbour, std::uint32_t simplex) const {
     const auto back = complex_.neighbours(SimplexId{neighbour});
-    const auto slot = static_cast<std::size_t>(std::find(back.begin(), back.end(), SimplexId{simplex}) - back.begin());
+    const auto slot =
+        static_cast<std::size_t>(std::find(back.begin(), back.end(), SimplexId{simplex}) - back.begin());
     return complex_.vertices(SimplexId{neighbour})[slot];
   }
 
@@ -52,7 +53,8 @@ class Merger {
     std::vector<std::pair<double, std::uint32_t>> seeds;
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       // |det| / height is the area up to a constant factor.
-      if (has_flat_ridge_[simplex]) seeds.emplace_back(-determinants_[simplex] * plane(simplex).norm(), simplex);
+      if (has_flat_ridge_[simplex])
+        seeds.emplace_back(-determinants_[simplex] * plane(simplex).norm(), simplex);
     }
     std::sort(seeds.begin(), seeds.end());
     for (const auto& [negative_area, seed] : seeds) {
@@ -139,7 +141,8 @@ class Merger {
       }
       if (best == kNone) continue;
       Cluster& into = clusters_[best];
-      into.simplices.insert(into.simplices.end(), clusters_[id].simplices.begin(), clusters_[id].simplices.end());
+      into.simplices.insert(into.simplices.end(), clusters_[id].simplices.begin(),
+                            clusters_[id].simplices.end());
       clusters_[id].simplices.clear();
       clusters_[id].joined = best;
     }
@@ -228,7 +231,8 @@ class Merger {
       const std::size_t facet = layout_.simplicial + m;
       std::copy_n(merged_planes_[m].data(), rank_of_points, complex_.planes.data() + facet * rank_of_points);
       double sum = 0.0;
-      for (std::size_t i = layout_.merged_begin[m]; i < layout_.merged_begin[m + 1]; ++i) sum += determinants_[i];
+      for (std::size_t i = layout_.merged_begin[m]; i < layout_.merged_begin[m + 1]; ++i)
+        sum += determinants_[i];
       determinants_[facet] = sum;
     }
     return std::move(layout_);

@@ -15,13 +15,15 @@ namespace ndhull {
 
 /// Groups the simplices into facets.
 ///
-/// Method    A ridge is flat when the opposite vertex of either side is less than `tolerance` below the other's
-///           plane. Seeds are taken by area, largest first: the largest simplex of a flat has its best plane. A
-///           facet grows from its seed over neighbours whose vertices are within the tolerance of the seed's
-///           plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
-///           squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
+/// Method    A ridge is flat when the opposite vertex of either side is less than `tolerance` below the
+/// other's
+///           plane. Seeds are taken by area, largest first: the largest simplex of a flat has its best plane.
+///           A facet grows from its seed over neighbours whose vertices are within the tolerance of the
+///           seed's plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices
+///           (least squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
-/// Changes   the rows of the complex are put into the order of FacetLayout; row f of complex.planes becomes the
+/// Changes   the rows of the complex are put into the order of FacetLayout; row f of complex.planes becomes
+/// the
 ///           plane of facet f, determinants[f] the sum over its simplices.
 /// Cost      O(s rank^2) for s simplices, plus the fits.
 FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,

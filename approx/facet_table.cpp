@@ -64,7 +64,8 @@ void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, co
     double smallest = HUGE_VAL, largest = -HUGE_VAL;
     const double* normal = normals + facet * dimension;
     const std::size_t merged = facet - layout.simplicial;
-    for (std::uint32_t simplex = layout.merged_begin[merged]; simplex < layout.merged_begin[merged + 1]; ++simplex) {
+    for (std::uint32_t simplex = layout.merged_begin[merged]; simplex < layout.merged_begin[merged + 1];
+         ++simplex) {
       for (const PointId id : complex.vertices(SimplexId{simplex})) {
         if (last_facet[id.value] == facet) continue;
         last_facet[id.value] = static_cast<std::uint32_t>(facet);

@@ -36,8 +36,8 @@ struct FacetTable {
   HugeArray<double> normals;  ///< facets x dimension, unit, outward
   HugeArray<double> offsets;  ///< [distance, input units] at the reference
   HugeArray<double> outer;    ///< [distance, length unit] >= 0: all certificate points are below
-  HugeArray<double> inner;    ///< [distance, length unit] <= 0: all vertices of the facet's simplices are above
-  HugeArray<double> areas;    ///< [area, input units]
+  HugeArray<double> inner;  ///< [distance, length unit] <= 0: all vertices of the facet's simplices are above
+  HugeArray<double> areas;  ///< [area, input units]
   double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, area = 0.0, volume = 0.0;
 };
 
@@ -45,9 +45,10 @@ struct FacetTable {
 ///
 /// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
 ///           consumed: turned into the normals in place where the shapes allow.
-///           covered_gauge: every input point that is no certificate point lies in the hull of those that are,
-///           scaled by 1 + this about the frame's centre.
-/// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on the
+///           covered_gauge: every input point that is no certificate point lies in the hull of those that
+///           are, scaled by 1 + this about the frame's centre.
+/// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on
+/// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
 ///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
 /// Cost      facets x points x dimension fused multiply-adds.

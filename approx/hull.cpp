@@ -39,9 +39,7 @@ double Hull::offset(FacetId facet) const {
   return offset;
 }
 
-double Hull::input_per_length_unit(FacetId facet) const {
-  return length_unit_.input_per_unit(normal(facet));
-}
+double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.input_per_unit(normal(facet)); }
 
 std::span<const PointId> Hull::vertices_of(FacetId facet) const {
   if (facet.value < layout_.regular) return simplices.vertices(SimplexId{facet.value});
@@ -49,7 +47,8 @@ std::span<const PointId> Hull::vertices_of(FacetId facet) const {
 }
 
 std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
-  if (facet.value >= layout_.regular) return as_ids<FacetId>(facet_neighbours_.row(facet.value - layout_.regular));
+  if (facet.value >= layout_.regular)
+    return as_ids<FacetId>(facet_neighbours_.row(facet.value - layout_.regular));
   const auto neighbours = simplices.neighbours(SimplexId{facet.value});
   return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
 }

@@ -36,9 +36,9 @@ std::string_view to_string(Phase phase);
 /// What the progress callback is told, a few times a second.
 struct Progress {
   Phase phase = Phase::kGrowth;
-  std::uint64_t points_left = 0;   ///< points still outside
-  std::uint64_t simplices = 0;     ///< rows of the growth complex now
-  double furthest_gauge = 0.0;     ///< [ratio] how far outside the last point added was
+  std::uint64_t points_left = 0;  ///< points still outside
+  std::uint64_t simplices = 0;    ///< rows of the growth complex now
+  double furthest_gauge = 0.0;    ///< [ratio] how far outside the last point added was
   double elapsed_seconds = 0.0;
   std::uint64_t memory_bytes = 0;
 };
@@ -47,8 +47,8 @@ struct HullOptions {
   bool triangulate = false;  ///< facets stay simplices: no coplanar merging
   bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
   Limits limits;
-  std::uint64_t seed = 1;    ///< of the inward shifts; the result depends on it below roundoff only
-  unsigned threads = 0;      ///< 0: all cores. The result does not depend on it.
+  std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
+  unsigned threads = 0;    ///< 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress;  ///< called from the calling thread
   std::stop_token stop;                           ///< a request ends growth: status kInterrupted
 };
@@ -60,8 +60,9 @@ std::string_view to_string(HullStatus status);
 struct HullStatistics {
   std::uint64_t created_simplices = 0;
   std::uint64_t insertions = 0;
-  std::uint64_t shifted_points = 0;      ///< points that had to be moved inwards (input is nearly degenerate)
-  std::uint64_t rejected_insertions = 0; ///< insertions whose horizon did not close and that were not committed
+  std::uint64_t shifted_points = 0;  ///< points that had to be moved inwards (input is nearly degenerate)
+  std::uint64_t rejected_insertions =
+      0;  ///< insertions whose horizon did not close and that were not committed
   std::uint64_t repair_rounds = 0;
   std::array<double, static_cast<std::size_t>(Phase::kCount)> seconds{};
   std::vector<std::pair<std::string_view, double>> detail_seconds;  ///< finer clock, for the benchmarks
@@ -90,13 +91,13 @@ class Hull {
   std::vector<PointId> vertices;  ///< ascending; no redundant ones
   SimplicialComplex simplices;    ///< compacted; without planes: those of the facets are here
 
-  double area = 0.0;         ///< of the hull of the input, input units
+  double area = 0.0;  ///< of the hull of the input, input units
   double volume = 0.0;
-  double roundoff = 0.0;         ///< [distance] proven rounding error of a distance, length unit
-  double max_outer_offset = 0.0; ///< [distance] certified, >= 0
-  double min_inner_offset = 0.0; ///< [distance] certified, <= 0
-  double max_facet_width = 0.0;  ///< [distance]
-  double max_outside_gauge = 0.0;///< [ratio]
+  double roundoff = 0.0;           ///< [distance] proven rounding error of a distance, length unit
+  double max_outer_offset = 0.0;   ///< [distance] certified, >= 0
+  double min_inner_offset = 0.0;   ///< [distance] certified, <= 0
+  double max_facet_width = 0.0;    ///< [distance]
+  double max_outside_gauge = 0.0;  ///< [ratio]
   std::uint64_t points_outside = 0;
   HullStatistics statistics;
 
@@ -106,17 +107,19 @@ class Hull {
   std::size_t facet_count() const { return layout_.facets; }
   std::size_t simplicial_facet_count() const { return layout_.simplicial; }
 
-  std::span<const double> normal(FacetId facet) const { return {normals_.data() + facet.value * dimension, dimension}; }
+  std::span<const double> normal(FacetId facet) const {
+    return {normals_.data() + facet.value * dimension, dimension};
+  }
   double offset(FacetId facet) const;
   double centred_offset(FacetId facet) const { return centred_offsets_[facet.value]; }
-  double outer_offset(FacetId facet) const { return outer_[facet.value]; }   ///< >= 0, length unit
-  double inner_offset(FacetId facet) const { return inner_[facet.value]; }   ///< <= 0, length unit
-  double area_of(FacetId facet) const { return areas_[facet.value]; }        ///< input units
+  double outer_offset(FacetId facet) const { return outer_[facet.value]; }  ///< >= 0, length unit
+  double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
+  double area_of(FacetId facet) const { return areas_[facet.value]; }       ///< input units
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
 
-  /// Of a simplicial facet the rank ids in the order of its simplex, neighbour k opposite vertex k; of a merged
-  /// one sorted ids.
+  /// Of a simplicial facet the rank ids in the order of its simplex, neighbour k opposite vertex k; of a
+  /// merged one sorted ids.
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;

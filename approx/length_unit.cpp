@@ -8,7 +8,8 @@ namespace {
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Eigen::Map<const RowMatrix> rows_of(const std::vector<double>& values, std::size_t columns) {
-  return {values.data(), static_cast<Eigen::Index>(values.size() / columns), static_cast<Eigen::Index>(columns)};
+  return {values.data(), static_cast<Eigen::Index>(values.size() / columns),
+          static_cast<Eigen::Index>(columns)};
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
 double LengthUnit::input_per_unit(std::span<const double> normal) const {
   if (extents_.empty()) return 1.0;
   Eigen::VectorXd scaled(static_cast<Eigen::Index>(normal.size()));
-  for (std::size_t k = 0; k < normal.size(); ++k) scaled[static_cast<Eigen::Index>(k)] = normal[k] * extents_[k];
+  for (std::size_t k = 0; k < normal.size(); ++k)
+    scaled[static_cast<Eigen::Index>(k)] = normal[k] * extents_[k];
   if (directions_.empty()) return scaled.norm();
   return (rows_of(directions_, normal.size()) * scaled).norm();
 }

@@ -20,8 +20,9 @@ class LengthUnit {
   const std::vector<double>& extents() const { return extents_; }
 
  private:
-  std::vector<double> extents_;    // per column; empty: input units
-  std::vector<double> directions_; // flat input: orthonormal directions of the subspace in the cube, rank rows
+  std::vector<double> extents_;  // per column; empty: input units
+  std::vector<double>
+      directions_;  // flat input: orthonormal directions of the subspace in the cube, rank rows
 };
 
 }  // namespace ndhull

@@ -17,10 +17,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<double>;
 using Lane = hn::Vec<Tag>;
 
-/// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the determinant up
-/// to sign. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th ed., 3.4).
-/// Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot row in turn,
-/// which leaves the largest there. A singular system gives infinities or NaN in its lane.
+/// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the determinant
+/// up to sign. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th
+/// ed., 3.4). Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot
+/// row in turn, which leaves the largest there. A singular system gives infinities or NaN in its lane.
 template <std::size_t D>
 HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
   const Tag tag;
@@ -38,7 +38,8 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
     const Lane inverse = hn::Div(hn::Set(tag, 1.0), matrix[column][column]);
     for (std::size_t row = column + 1; row < D; ++row) {
       const Lane factor = hn::Neg(hn::Mul(matrix[row][column], inverse));
-      for (std::size_t k = column + 1; k <= D; ++k) matrix[row][k] = hn::MulAdd(factor, matrix[column][k], matrix[row][k]);
+      for (std::size_t k = column + 1; k <= D; ++k)
+        matrix[row][k] = hn::MulAdd(factor, matrix[column][k], matrix[row][k]);
     }
   }
   for (std::size_t row = D; row-- > 0;) {

@@ -100,15 +100,16 @@ class Checker {
         ridges.push_back({sum - mix(vertices[slot].value), row, slot});
       }
     }
-    std::sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
-      return a.key != b.key ? a.key < b.key : a.row < b.row;
-    });
+    std::sort(ridges.begin(), ridges.end(),
+              [](const Ridge& a, const Ridge& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; });
     for (std::size_t begin = 0, end = 0; begin < ridges.size(); begin = end) {
-      const auto ridge = [&](std::size_t i) { return ridge_of(complex_.vertices(SimplexId{ridges[i].row}), ridges[i].slot); };
+      const auto ridge = [&](std::size_t i) {
+        return ridge_of(complex_.vertices(SimplexId{ridges[i].row}), std::size_t{ridges[i].slot});
+      };
       for (end = begin; end < ridges.size() && ridges[end].key == ridges[begin].key; ++end) {
       }
       std::size_t shared = 0;
-      for (std::size_t i = begin; i < end; ++i) shared += ridge(i) == ridge(begin) ? 1 : 0;
+      for (std::size_t i = begin; i < end; ++i) shared += ridge(i) == ridge(begin) ? 1u : 0u;
       if (shared != 2 || end - begin != 2) {
         report("a ridge belongs to other than two simplices", ridges[begin].row, ridges[begin].slot);
       }
@@ -136,7 +137,8 @@ class Checker {
         queue.push_back(next.value);
       }
     }
-    if (queue.size() != result_.simplices) report("is all that the first simplex reaches", queue[0], queue.size());
+    if (queue.size() != result_.simplices)
+      report("is all that the first simplex reaches", queue[0], queue.size());
   }
 
   const SimplicialComplex& complex_;

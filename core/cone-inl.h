@@ -120,8 +120,8 @@ void Grower<D>::commit() {
 }
 
 // The cone's base must be a sphere: no subridge in more than two new simplices, and all connected. The turn
-// around subridges pairs the new simplices of a pinched horizon as well, so doubtful insertions are looked at:
-// each pair's subridge must differ from that of all other pairs.
+// around subridges pairs the new simplices of a pinched horizon as well, so doubtful insertions are looked
+// at: each pair's subridge must differ from that of all other pairs.
 template <std::size_t D>
 bool Grower<D>::cone_is_sphere() {
   std::size_t mask = 63;  // open addressing, 2^k entries, half of them free

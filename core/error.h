@@ -12,21 +12,21 @@ namespace ndhull {
 /// What was wrong with the input or the request. `to_string` gives the short code that the one-line
 /// message of the command line program starts with.
 enum class ErrorCode {
-  kUsage,              ///< an option or argument that cannot be honoured
-  kFileMissing,        ///< the file cannot be opened
-  kFileWrite,          ///< a result cannot be written; nothing was left behind
-  kEmptyInput,         ///< no points at all
-  kBadHeader,          ///< the header of a format is not what the format says
-  kBadNumber,          ///< text where a number is expected
-  kNotFinite,          ///< NaN or infinity
-  kRaggedRow,          ///< a row with another number of columns than the first
-  kWrongCount,         ///< fewer or more rows than announced
-  kTruncated,          ///< a binary file that ends early
-  kUnknownType,        ///< a binary element type that is not read
-  kDimensionTooLow,    ///< dimension 0
-  kDimensionTooHigh,   ///< the affine rank is above kMaxDimension
-  kTooManyPoints,      ///< more rows than 32-bit ids can number
-  kBadHalfspace,       ///< a zero normal
+  kUsage,             ///< an option or argument that cannot be honoured
+  kFileMissing,       ///< the file cannot be opened
+  kFileWrite,         ///< a result cannot be written; nothing was left behind
+  kEmptyInput,        ///< no points at all
+  kBadHeader,         ///< the header of a format is not what the format says
+  kBadNumber,         ///< text where a number is expected
+  kNotFinite,         ///< NaN or infinity
+  kRaggedRow,         ///< a row with another number of columns than the first
+  kWrongCount,        ///< fewer or more rows than announced
+  kTruncated,         ///< a binary file that ends early
+  kUnknownType,       ///< a binary element type that is not read
+  kDimensionTooLow,   ///< dimension 0
+  kDimensionTooHigh,  ///< the affine rank is above kMaxDimension
+  kTooManyPoints,     ///< more rows than 32-bit ids can number
+  kBadHalfspace,      ///< a zero normal
 };
 
 std::string_view to_string(ErrorCode code);

@@ -40,8 +40,8 @@ void find_column_ranges(const PointView& points, Frame& frame) {
     for (std::size_t column = 0; column < points.dimension; ++column) {
       const double x = static_cast<double>(data[row * points.row_stride + column * points.column_stride]);
       if (!std::isfinite(x)) {
-        throw Error(ErrorCode::kNotFinite, "row " + std::to_string(row) + ", column " + std::to_string(column) +
-                                               ": found " + std::to_string(x) +
+        throw Error(ErrorCode::kNotFinite, "row " + std::to_string(row) + ", column " +
+                                               std::to_string(column) + ": found " + std::to_string(x) +
                                                ", expected a finite number; remove or repair the row");
       }
       frame.column_min[column] = std::min(frame.column_min[column], x);
@@ -66,18 +66,33 @@ struct GreedySimplex {
   Matrix directions;  // rank x dimension, orthonormal, in z
 };
 
-std::uint32_t longest_row(const Matrix& rows, double& length) {
+/// Row furthest from the span so far, and how far it is.
+struct Furthest {
+  std::uint32_t row = 0;
+  double distance = 0.0;
+};
+
+/// Takes the part along `direction` (unit, or zero for the first step) out of every row and finds the longest
+/// rest. One pass: the rows are what does not fit in cache.
+Furthest reduce(Matrix& residuals, const Eigen::RowVectorXd& direction) {
+  const std::size_t width = static_cast<std::size_t>(residuals.cols());
   double best = -1.0;
-  std::uint32_t best_row = 0;
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    const double length_sq = rows.row(row).squaredNorm();
+  Furthest furthest;
+  for (Eigen::Index row = 0; row < residuals.rows(); ++row) {
+    double* values = residuals.row(row).data();
+    double along = 0.0, length_sq = 0.0;
+    for (std::size_t k = 0; k < width; ++k) along += values[k] * direction.data()[k];
+    for (std::size_t k = 0; k < width; ++k) {
+      values[k] -= along * direction.data()[k];
+      length_sq += values[k] * values[k];
+    }
     if (length_sq > best) {
       best = length_sq;
-      best_row = static_cast<std::uint32_t>(row);
+      furthest.row = static_cast<std::uint32_t>(row);
     }
   }
-  length = std::sqrt(std::max(best, 0.0));
-  return best_row;
+  furthest.distance = std::sqrt(std::max(best, 0.0));
+  return furthest;
 }
 
 /// `tolerance`: a distance from the span below this is the rounding of the input.
@@ -86,31 +101,35 @@ GreedySimplex choose_simplex(Matrix residuals, double tolerance) {
   GreedySimplex simplex;
   simplex.directions.resize(dimension, dimension);
   const Eigen::RowVectorXd mean = residuals.colwise().mean();
-  double length = 0.0;
-  {
-    Matrix from_mean = residuals.rowwise() - mean;
-    simplex.points.push_back(PointId{longest_row(from_mean, length)});
+  std::uint32_t first = 0;
+  double first_distance_sq = -1.0;
+  for (Eigen::Index row = 0; row < residuals.rows(); ++row) {
+    const double distance_sq = (residuals.row(row) - mean).squaredNorm();
+    if (distance_sq <= first_distance_sq) continue;
+    first_distance_sq = distance_sq;
+    first = static_cast<std::uint32_t>(row);
   }
-  const Eigen::RowVectorXd first = residuals.row(simplex.points[0].value);
-  residuals.rowwise() -= first;
+  simplex.points.push_back(PointId{first});
+  const Eigen::RowVectorXd origin = residuals.row(first);
+  residuals.rowwise() -= origin;
+  Eigen::RowVectorXd direction = Eigen::RowVectorXd::Zero(dimension);
   for (Eigen::Index step = 0; step < dimension; ++step) {
-    const std::uint32_t furthest = longest_row(residuals, length);
-    if (length <= tolerance) break;
-    Eigen::RowVectorXd direction = residuals.row(furthest) / length;
+    const Furthest furthest = reduce(residuals, direction);
+    if (furthest.distance <= tolerance) break;
+    direction = residuals.row(furthest.row) / furthest.distance;
     // Twice is enough (Kahan; Parlett. The Symmetric Eigenvalue Problem, 1980, sec. 6-9).
     const auto found = simplex.directions.topRows(step);
     direction -= (direction * found.transpose()) * found;
     direction.normalize();
     simplex.directions.row(step) = direction;
-    simplex.points.push_back(PointId{furthest});
-    const Vector along = residuals * direction.transpose();
-    residuals.noalias() -= along * direction;
+    simplex.points.push_back(PointId{furthest.row});
   }
   simplex.directions.conservativeResize(static_cast<Eigen::Index>(simplex.points.size()) - 1, dimension);
   return simplex;
 }
 
-/// Largest product of a dual vertex of the simplex with a point of it: 1 / relative height of the worst facet.
+/// Largest product of a dual vertex of the simplex with a point of it: 1 / relative height of the worst
+/// facet.
 double worst_shape(const Matrix& vertices) {
   const Eigen::Index rank = vertices.cols();
   const Eigen::RowVectorXd mean = vertices.colwise().mean();
@@ -164,8 +183,8 @@ Frame fit_frame(const PointView& points) {
     const auto at = static_cast<Eigen::Index>(k);
     scale[at] = column_scale(frame.column_min[k], frame.column_max[k]);
     middle[at] = 0.5 * frame.column_min[k] + 0.5 * frame.column_max[k];
-    input_rounding =
-        std::max(input_rounding, scale[at] * std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k])));
+    input_rounding = std::max(
+        input_rounding, scale[at] * std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k])));
   }
   GreedySimplex simplex;
   {
@@ -205,8 +224,9 @@ Frame fit_frame(const PointView& points) {
   Matrix vertices(rank + 1, columns);
   for (Eigen::Index row = 0; row <= rank; ++row) {
     for (Eigen::Index k = 0; k < columns; ++k) {
-      vertices(row, k) = points.at(frame.simplex[static_cast<std::size_t>(row)].value, static_cast<std::size_t>(k)) -
-                         frame.centre[static_cast<std::size_t>(k)];
+      vertices(row, k) =
+          points.at(frame.simplex[static_cast<std::size_t>(row)].value, static_cast<std::size_t>(k)) -
+          frame.centre[static_cast<std::size_t>(k)];
     }
   }
   const Matrix mapped = vertices * map.transpose();

@@ -15,15 +15,15 @@ namespace ndhull {
 
 /// y = map (x - centre). The centre is strictly inside the hull and has y = 0.
 struct Frame {
-  std::size_t dimension = 0;  ///< columns of the input
-  std::size_t rank = 0;       ///< affine dimension of the input, rows of the map
-  std::vector<double> centre;   ///< dimension numbers, input units
-  std::vector<double> map;      ///< rank x dimension, row-major
+  std::size_t dimension = 0;   ///< columns of the input
+  std::size_t rank = 0;        ///< affine dimension of the input, rows of the map
+  std::vector<double> centre;  ///< dimension numbers, input units
+  std::vector<double> map;     ///< rank x dimension, row-major
   /// True when each row of the map has one entry, a power of two: then y has the rounding of x - centre only.
   bool is_diagonal = false;
   /// rank < dimension: orthonormal directions of the affine subspace, rank x dimension; otherwise empty.
   std::vector<double> basis;
-  std::vector<PointId> simplex;  ///< rank + 1 affinely independent points; centre is their mean
+  std::vector<PointId> simplex;                ///< rank + 1 affinely independent points; centre is their mean
   std::vector<double> column_min, column_max;  ///< of the input
 };
 

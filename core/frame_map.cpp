@@ -34,7 +34,8 @@ void map_full(const PointView& points, const Frame& frame, double* out) {
   for (std::size_t row = 0; row < points.rows; ++row) {
     for (std::size_t k = 0; k < points.dimension; ++k) offset[k] = points.at(row, k) - frame.centre[k];
     for (std::size_t r = 0; r < frame.rank; ++r) {
-      out[row * frame.rank + r] = compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
+      out[row * frame.rank + r] =
+          compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
     }
   }
 }

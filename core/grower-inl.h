@@ -2,8 +2,8 @@
 // Included once per target by growth_kernels.cpp.
 //
 // Idea. A simplex is kept as its dual vertex a (a.y = 1 on it). The apex p sees it iff a.p - 1 > 0. Over the
-// horizon ridge between a visible f and a hidden g the new dual vertex is where the dual edge (a_f, a_g) meets
-// the plane of p: a = a_f + t (a_g - a_f), t = v_f / (v_f - v_g). That is a convex combination, so the
+// horizon ridge between a visible f and a hidden g the new dual vertex is where the dual edge (a_f, a_g)
+// meets the plane of p: a = a_f + t (a_g - a_f), t = v_f / (v_f - v_g). That is a convex combination, so the
 // residuals at the ridge's vertices never amplify.
 //
 // Neighbours of new simplices are found by turning around the subridge through the visible simplices that
@@ -148,8 +148,8 @@ class Grower {
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
-  double lowest_visible_ = 0.0;   // smallest gauge tested above the threshold
-  double highest_hidden_ = 0.0;   // largest gauge tested not above it
+  double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
+  double highest_hidden_ = 0.0;               // largest gauge tested not above it
   std::vector<std::uint64_t> subridge_keys_;  // XOR of random keys of the vertices; 0: free
 };
 
@@ -210,18 +210,19 @@ void Grower<D>::partition(std::uint32_t apex) {
   }
 }
 
-
 // Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
 // before is then moved below most of them, and they stay (on cubes that halves what is made). Partly random:
 // were the shift an affine function of the coordinates, points on one plane would stay on one plane.
 template <std::size_t D>
 double Grower<D>::draw_shift(std::uint32_t apex_id, unsigned attempt) const {
-  const std::uint64_t random = scramble(work_.options.seed ^ scramble((std::uint64_t{apex_id} << 8) + attempt));
+  const std::uint64_t random =
+      scramble(work_.options.seed ^ scramble((std::uint64_t{apex_id} << 8) + attempt));
   const double chance = static_cast<double>(random >> 11) * 0x1p-53;
   const double inserted = static_cast<double>(work_.counters.insertions);
-  constexpr double kRising = 0.85;        // of the interval; the rest is left to chance
-  constexpr double kHalfRisen = 64.0;     // insertions
-  return work_.options.shift * (1.0 + kRising * inserted / (inserted + kHalfRisen) + (1.0 - kRising) * chance);
+  constexpr double kRising = 0.85;     // of the interval; the rest is left to chance
+  constexpr double kHalfRisen = 64.0;  // insertions
+  return work_.options.shift *
+         (1.0 + kRising * inserted / (inserted + kHalfRisen) + (1.0 - kRising) * chance);
 }
 
 template <std::size_t D>
@@ -273,10 +274,15 @@ GrowthStop Grower<D>::run() {
   while (!work_.pending.empty()) {
     const OutsideSet furthest = work_.pending.front();
     const std::uint32_t row = furthest.row;
-    if (state_[row] != SimplexState::kLive || head_[row] == 0 || work_.gauge[head_[row] - 1] != furthest.gauge) {
+    if (state_[row] != SimplexState::kLive || head_[row] == 0 ||
+        work_.gauge[head_[row] - 1] != furthest.gauge) {
       std::pop_heap(work_.pending.begin(), work_.pending.end());
       work_.pending.pop_back();
       continue;
+    }
+    if (work_.options.pause_rows != 0 && live_rows() >= work_.options.pause_rows) {
+      work_.options.pause_rows = 0;
+      return GrowthStop::kPaused;
     }
     const std::uint32_t apex_id = head_[row] - 1;
     if (work_.options.poll && work_.counters.created >= polled_at) {

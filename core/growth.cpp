@@ -13,7 +13,8 @@ namespace {
 
 /// Rows that are given address space: what would fill twice the machine's memory. Only touched pages count.
 std::size_t row_capacity(std::size_t rank) {
-  const auto machine_bytes = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto machine_bytes =
+      static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t row_bytes = 16 * rank;
   constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
   return std::min(2 * machine_bytes / row_bytes, kMostRows);

@@ -18,28 +18,29 @@
 namespace ndhull {
 
 /// Why growth ended. Every value is a valid hull of the points added; only the first is the full one.
-enum class GrowthStop { kNoOutsidePoints, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
+enum class GrowthStop { kNoOutsidePoints, kPaused, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
 
-/// Gauge units: the gauge of y with respect to the simplex with dual plane a is a.y - 1, so 0 on the facet and
-/// -1 at the interior point. In these units all roundoff and shifts are relative to the hull's own size.
+/// Gauge units: the gauge of y with respect to the simplex with dual plane a is a.y - 1, so 0 on the facet
+/// and -1 at the interior point. In these units all roundoff and shifts are relative to the hull's own size.
 struct GrowthOptions {
   /// [ratio] A point whose decisions are not all clearer than this is moved inwards by between one and two
   /// of it. 1e-12 is some 4,000 times the rounding error of one decision and still far below data noise;
   /// core/DESIGN.md has the experiment.
   double shift = 1e-12;
   std::uint64_t seed = 1;
-  std::uint64_t max_rows = 0;          ///< 0: no limit on simplices
+  std::uint64_t pause_rows = 0;  ///< growth returns kPaused once when it has this many simplices; 0: never
+  std::uint64_t max_rows = 0;    ///< 0: no limit on simplices
   std::uint64_t max_memory_bytes = 0;  ///< 0: no limit on the complex's tables
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
   std::function<GrowthStop(std::uint64_t points_left, double furthest_gauge)> poll;
 };
 
 struct GrowthCounters {
-  std::uint64_t created = 0;             ///< simplices ever made
-  std::uint64_t insertions = 0;          ///< points added
-  std::uint64_t shifted = 0;             ///< of these, moved inwards
-  std::uint64_t rejected = 0;            ///< insertions tried that did not close and were undone
-  std::uint64_t set_aside = 0;           ///< points given up after all tries; certify finds out what they cost
+  std::uint64_t created = 0;     ///< simplices ever made
+  std::uint64_t insertions = 0;  ///< points added
+  std::uint64_t shifted = 0;     ///< of these, moved inwards
+  std::uint64_t rejected = 0;    ///< insertions tried that did not close and were undone
+  std::uint64_t set_aside = 0;   ///< points given up after all tries; certify finds out what they cost
   double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
 };
 

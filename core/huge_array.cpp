@@ -18,9 +18,11 @@ std::size_t round_up(std::size_t bytes, std::size_t unit) { return (bytes + unit
 
 void* reserve_pages(std::size_t bytes) {
   const std::size_t rounded = round_up(bytes, kPageBytes);
-  void* address = mmap(nullptr, rounded, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* address =
+      mmap(nullptr, rounded, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
-  if (rounded >= kHugePageBytes) madvise(address, rounded, MADV_HUGEPAGE);  // advice: failure costs speed only
+  if (rounded >= kHugePageBytes)
+    madvise(address, rounded, MADV_HUGEPAGE);  // advice: failure costs speed only
   return address;
 }
 

@@ -46,9 +46,11 @@ SimplexId climb(const SimplicialComplex& complex, const double* y, SimplexId sta
   return at;
 }
 
-/// Gauge bound from the coordinates lambda of y in its simplex, one query a lane. See the proof in the header.
+/// Gauge bound from the coordinates lambda of y in its simplex, one query a lane. See the proof in the
+/// header.
 template <std::size_t D>
-void prove_block(const SimplicialComplex& complex, const double* points, const HullBall& ball, LocatedPoint* block) {
+void prove_block(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                 LocatedPoint* block) {
   const Tag tag;
   const std::size_t lanes = hn::Lanes(tag);
   HWY_ALIGN double entries[D * (D + 1) * HWY_MAX_BYTES / sizeof(double)];
@@ -73,13 +75,15 @@ void prove_block(const SimplicialComplex& complex, const double* points, const H
   }
   for (std::size_t k = 0; k < D; ++k) {
     Lane rest = hn::Load(tag, entries + (k * (D + 1) + D) * lanes);
-    for (std::size_t i = 0; i < D; ++i) rest = hn::NegMulAdd(hn::Load(tag, entries + (k * (D + 1) + i) * lanes), lambda[i], rest);
+    for (std::size_t i = 0; i < D; ++i)
+      rest = hn::NegMulAdd(hn::Load(tag, entries + (k * (D + 1) + i) * lanes), lambda[i], rest);
     residual = hn::Add(residual, hn::Abs(rest));
   }
   // The residual is itself computed: its error is at most gamma_{D+1} of the terms' sizes, taken twice.
   constexpr double kGamma = 2.0 * (D + 2) * 0x1p-53;
   const Lane reach = hn::Set(tag, ball.reach), unit = hn::Set(tag, 1.0 / ball.inner_radius);
-  residual = hn::MulAdd(hn::Set(tag, kGamma * D), hn::Mul(reach, hn::Add(magnitude, hn::Set(tag, 1.0))), residual);
+  residual =
+      hn::MulAdd(hn::Set(tag, kGamma * D), hn::Mul(reach, hn::Add(magnitude, hn::Set(tag, 1.0))), residual);
   const Lane covered = hn::Mul(unit, hn::MulAdd(negative, reach, residual));
   HWY_ALIGN double gauge[HWY_MAX_BYTES / sizeof(double)];
   hn::Store(hn::Sub(hn::Add(sum, covered), hn::Set(tag, 1.0)), tag, gauge);
@@ -112,11 +116,12 @@ void locate_any(const SimplicialComplex& complex, const double* points, const Hu
   switch (complex.rank) {
 #define NDHULL_CASE(D) \
   case D: return locate_all<D>(complex, points, ball, located);
-    NDHULL_CASE(2) NDHULL_CASE(3) NDHULL_CASE(4) NDHULL_CASE(5) NDHULL_CASE(6)
-    NDHULL_CASE(7) NDHULL_CASE(8) NDHULL_CASE(9) NDHULL_CASE(10) NDHULL_CASE(11)
-    NDHULL_CASE(12) NDHULL_CASE(13) NDHULL_CASE(14) NDHULL_CASE(15) NDHULL_CASE(16)
+    NDHULL_CASE(2)
+    NDHULL_CASE(3) NDHULL_CASE(4) NDHULL_CASE(5) NDHULL_CASE(6) NDHULL_CASE(7) NDHULL_CASE(8) NDHULL_CASE(9)
+        NDHULL_CASE(10) NDHULL_CASE(11) NDHULL_CASE(12) NDHULL_CASE(13) NDHULL_CASE(14) NDHULL_CASE(15)
+            NDHULL_CASE(16)
 #undef NDHULL_CASE
-    default: NDHULL_CHECK(!"rank is checked before growth starts");
+                default : NDHULL_CHECK(!"rank is checked before growth starts");
   }
 }
 
@@ -241,12 +246,19 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
   return ball;
 }
 
-std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                                       std::span<const PointId> queries, std::uint64_t& searched_all) {
+std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const double* points,
+                                     const HullBall& ball, std::span<const PointId> queries) {
   std::vector<LocatedPoint> located;
   located.reserve(queries.size());
   for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL});
   HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, located);
+  return located;
+}
+
+std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
+                                       const HullBall& ball, std::span<const PointId> queries,
+                                       std::uint64_t& searched_all) {
+  std::vector<LocatedPoint> located = try_inside(complex, points, ball, queries);
   const Walker walker(complex, points, ball);
   for (LocatedPoint& point : located) {
     if (point.gauge <= kUseful) continue;

@@ -1,9 +1,9 @@
 // Is every point inside the hull? A proof for each point that does not rest on how the hull was grown.
 //
-// Proof. If y = sum lambda_i v_i with lambda_i >= 0 over the vertices v_i of one simplex and s = sum lambda_i,
-// then y lies in the hull of the input scaled by s about the interior point (which is 0). Whatever the simplex
-// is and however it was found, that is true; a wrong one only gives a useless s. Small negative lambda_i and
-// the residual of the sum are covered with a ball inside the hull.
+// Proof. If y = sum lambda_i v_i with lambda_i >= 0 over the vertices v_i of one simplex and s = sum
+// lambda_i, then y lies in the hull of the input scaled by s about the interior point (which is 0). Whatever
+// the simplex is and however it was found, that is true; a wrong one only gives a useless s. Small negative
+// lambda_i and the residual of the sum are covered with a ball inside the hull.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ namespace ndhull {
 struct LocatedPoint {
   PointId point;
   SimplexId simplex;
-  double gauge = 0.0;  ///< proven upper bound on (scale at which the hull holds the point) - 1; +inf: no proof
+  double gauge =
+      0.0;  ///< proven upper bound on (scale at which the hull holds the point) - 1; +inf: no proof
 };
 
 /// The numbers a proof needs besides the complex.
@@ -29,7 +30,8 @@ struct HullBall {
 };
 
 /// Radius of a ball around 0 inside the simplex with these rank + 1 vertices, and the reach of all points.
-HullBall find_ball(std::size_t rank, const double* points, std::size_t point_count, std::span<const PointId> simplex);
+HullBall find_ball(std::size_t rank, const double* points, std::size_t point_count,
+                   std::span<const PointId> simplex);
 
 /// Finds for each of `queries` the simplex whose cone it lies in (hill climbing, then walking along negative
 /// coordinates, then all simplices) and proves its gauge.
@@ -37,7 +39,12 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 /// Shapes  points: any number of rows x rank.  Result: one entry a query, in their order.
 /// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query; all
 ///         simplices for those where walking ends in no proof (counted in `searched_all`).
-std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                                       std::span<const PointId> queries, std::uint64_t& searched_all);
+std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
+                                       const HullBall& ball, std::span<const PointId> queries,
+                                       std::uint64_t& searched_all);
+
+/// The same with hill climbing alone: what is not proven at once is +inf or far too large.
+std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const double* points,
+                                     const HullBall& ball, std::span<const PointId> queries);
 
 }  // namespace ndhull

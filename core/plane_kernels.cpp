@@ -75,8 +75,8 @@ void max_dots_of(std::size_t dimension, std::span<const double> normals, std::sp
 
 template <std::size_t D>
 void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-                 std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
-                 std::span<double> high) {
+                 std::span<const double> points, std::span<const std::uint32_t> row_of_point,
+                 std::span<double> low, std::span<double> high) {
   const std::size_t width = D > 0 ? D : dimension;
   for (std::size_t row = 0; row < low.size(); ++row) {
     const double* normal = normals.data() + row * width;
@@ -182,9 +182,10 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points, bool r
   }
 }
 
-#define NDHULL_FOR_EACH_DIMENSION(CALL) \
-  CALL(1) CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) CALL(14) \
-      CALL(15) CALL(16)
+#define NDHULL_FOR_EACH_DIMENSION(CALL)                                                               \
+  CALL(1)                                                                                             \
+  CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) \
+      CALL(14) CALL(15) CALL(16)
 
 void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                   std::span<double> max_dot) {
@@ -198,8 +199,8 @@ void max_dots_any(std::size_t dimension, std::span<const double> normals, std::s
 }
 
 void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-                  std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
-                  std::span<double> high) {
+                  std::span<const double> points, std::span<const std::uint32_t> row_of_point,
+                  std::span<double> low, std::span<double> high) {
   switch (dimension) {
 #define NDHULL_CASE(D) \
   case D: return own_dots_of<D>(complex, dimension, normals, points, row_of_point, low, high);
@@ -248,8 +249,8 @@ void max_dots(std::size_t dimension, std::span<const double> normals, std::span<
 }
 
 void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-              std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
-              std::span<double> high) {
+              std::span<const double> points, std::span<const std::uint32_t> row_of_point,
+              std::span<double> low, std::span<double> high) {
   HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, dimension, normals, points, row_of_point, low, high);
 }
 

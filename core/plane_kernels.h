@@ -24,11 +24,11 @@ void max_dots(std::size_t dimension, std::span<const double> normals, std::span<
 /// Shapes  normals: rows x dimension; points: any number of rows x dimension; row_of_point: the row of each
 ///         PointId in `points`; low, high: one a simplex, for as many as wanted. Error as above.
 void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-              std::span<const double> points, std::span<const std::uint32_t> row_of_point, std::span<double> low,
-              std::span<double> high);
+              std::span<const double> points, std::span<const std::uint32_t> row_of_point,
+              std::span<double> low, std::span<double> high);
 
-/// Marks the simplices that have a flat ridge: one across which the opposite vertex of either side is less than
-/// `tolerance` (a gauge) below the other side's plane.
+/// Marks the simplices that have a flat ridge: one across which the opposite vertex of either side is less
+/// than `tolerance` (a gauge) below the other side's plane.
 ///
 /// Shapes  points: any number of rows x rank; is_flat: row_count, 1 for such a simplex.
 /// Cost    rank plane evaluations and rank random reads of neighbours a simplex.

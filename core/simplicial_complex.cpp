@@ -26,7 +26,8 @@ void compact(SimplicialComplex& complex) {
     new_of_old[row] = static_cast<std::uint32_t>(live);
     if (live != row) {
       std::copy_n(complex.planes.data() + row * rank, rank, complex.planes.data() + live * rank);
-      std::copy_n(complex.topology.data() + row * 2 * rank, 2 * rank, complex.topology.data() + live * 2 * rank);
+      std::copy_n(complex.topology.data() + row * 2 * rank, 2 * rank,
+                  complex.topology.data() + live * 2 * rank);
       complex.outside_head[live] = complex.outside_head[row];
       complex.state[live] = complex.state[row];
     }

@@ -46,12 +46,16 @@ struct SimplicialComplex {
         state(capacity),
         outside_head(capacity) {}
 
-  std::span<const double> plane(SimplexId simplex) const { return {planes.data() + std::size_t{simplex.value} * rank, rank}; }
+  std::span<const double> plane(SimplexId simplex) const {
+    return {planes.data() + std::size_t{simplex.value} * rank, rank};
+  }
   std::span<const PointId> vertices(SimplexId simplex) const {
     return {reinterpret_cast<const PointId*>(topology.data() + std::size_t{simplex.value} * 2 * rank), rank};
   }
   std::span<const SimplexId> neighbours(SimplexId simplex) const {
-    return {reinterpret_cast<const SimplexId*>(topology.data() + std::size_t{simplex.value} * 2 * rank + rank), rank};
+    return {
+        reinterpret_cast<const SimplexId*>(topology.data() + std::size_t{simplex.value} * 2 * rank + rank),
+        rank};
   }
 };
 

@@ -59,7 +59,8 @@ void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double t
           now = SimplexState::kHidden;
         }
         if (now == SimplexState::kHidden) {
-          horizon_[horizon_count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), neighbour};
+          horizon_[horizon_count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k),
+                                       neighbour};
         }
       }
     }
