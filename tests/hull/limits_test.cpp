@@ -1,0 +1,93 @@
+// A limit ends growth, not the promise: what is there is a sound hull whose outer planes bound every point.
+#include <stop_token>
+
+#include "core/complex_check.h"
+#include "tests/hull/hull_support.h"
+#include "tests/support/degeneracies.h"
+
+namespace ndhull {
+namespace {
+
+/// The status, certified planes over all points, and a sound complex.
+void expect_certified_with(HullStatus status, const PointSet& set, const HullOptions& options) {
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, status) << to_string(hull.status);
+  EXPECT_GT(hull.facet_count(), 0U);
+  expect_sound(hull, set);
+  // Points were left out, and the numbers say so.
+  EXPECT_GT(hull.max_outside_gauge, 0.0);
+  EXPECT_GT(hull.max_outer_offset, 0.0);
+}
+
+PointSet sphere(std::size_t n, std::size_t d) { return family_points(PointFamily::kSphere, n, d, 71); }
+
+TEST(LimitsLaw, AFacetLimitLeavesACertifiedHull) {
+  for (std::size_t d = 2; d <= 8; ++d) {
+    for (const std::uint64_t limit : {std::uint64_t{2 * d}, std::uint64_t{100}, std::uint64_t{1000}}) {
+      SCOPED_TRACE("sphere, n 2000, d " + std::to_string(d) + ", seed 71, max_facets " +
+                   std::to_string(limit));
+      const PointSet set = sphere(2000, d);
+      const HullOptions options{.limits = {.max_facets = limit}};
+      expect_certified_with(HullStatus::kFacetLimit, set, options);
+      EXPECT_LE(hull_of(set, options).simplices.row_count, limit);
+    }
+  }
+}
+
+TEST(LimitsLaw, AFacetLimitLeavesACertifiedHullOfDegenerateInputs) {
+  for (std::size_t d = 3; d <= 6; ++d) {
+    for (const DegenerateCase& input : degenerate_cases(150, d, 72)) {
+      SCOPED_TRACE(input.description + ", max_facets 40");
+      const Hull hull = hull_of(input.points, {.limits = {.max_facets = 40}});
+      EXPECT_TRUE(hull.status == HullStatus::kFacetLimit || hull.status == HullStatus::kComplete);
+      expect_sound(hull, input.points);
+    }
+  }
+}
+
+TEST(LimitsExample, ALimitThatIsNotReachedChangesNothing) {
+  const PointSet set = sphere(100, 5);
+  const Hull free = hull_of(set);
+  const Hull limited = hull_of(
+      set, {.limits = {
+                .max_facets = 1'000'000, .max_seconds = 600.0, .max_memory_bytes = std::uint64_t{1} << 34}});
+  EXPECT_EQ(limited.status, HullStatus::kComplete);
+  EXPECT_EQ(facet_sets(limited), facet_sets(free));
+}
+
+TEST(LimitsExample, TimeEndsGrowth) {
+  const PointSet set = sphere(2000, 8);
+  expect_certified_with(HullStatus::kTimeLimit, set, {.limits = {.max_seconds = 0.05}});
+}
+
+TEST(LimitsExample, MemoryEndsGrowth) {
+  const PointSet set = sphere(2000, 8);
+  const HullOptions options{.limits = {.max_memory_bytes = 3'000'000}};
+  expect_certified_with(HullStatus::kMemoryLimit, set, options);
+  EXPECT_LT(hull_of(set, options).simplices.row_count, 3'000'000U / 133U);
+}
+
+TEST(LimitsExample, AStopRequestedBeforeLeavesTheFirstSimplexOrMore) {
+  std::stop_source source;
+  source.request_stop();
+  const PointSet set = sphere(2000, 8);
+  expect_certified_with(HullStatus::kInterrupted, set, {.stop = source.get_token()});
+}
+
+TEST(LimitsExample, AStopRequestedDuringGrowthLeavesACertifiedHull) {
+  std::stop_source source;
+  const PointSet set = sphere(2000, 7);
+  std::uint64_t calls = 0;
+  HullOptions options{.stop = source.get_token()};
+  options.progress = [&](const Progress& progress) {
+    EXPECT_LE(progress.points_left, set.rows());
+    EXPECT_GE(progress.elapsed_seconds, 0.0);
+    ++calls;
+    source.request_stop();
+  };
+  expect_certified_with(HullStatus::kInterrupted, set, options);
+  EXPECT_GE(calls, 1U);
+}
+
+}  // namespace
+}  // namespace ndhull
