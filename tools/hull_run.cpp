@@ -128,7 +128,8 @@ int run_hull(const HullRequest& request) {
   check_outputs_are_writable(outputs);
   ReportContext context{.input_path = request.points_path,
                         .options = request.options,
-                        .program_options = program_options(request)};
+                        .program_options = program_options(request),
+                        .facet_list = request.facet_list};
   context.options.threads = static_cast<unsigned>(arena.max_concurrency());
   context.options.stop = interrupt.token();
   if (progress.is_shown()) {

@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+"""ndhull hull: report, exit codes, limits, Ctrl-C, pipes and formats."""
+
+import json
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy
+from program import DIAMONDS, PROGRAM, fresh_folder, rbox, report_of, run, run_tests
+
+KEYS = """ndhull input status options length_unit vertices facets simplicial_facets merged_facets simplices area
+    volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
+    interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
+OPTIONS = """max_facets max_seconds max_memory unit_cube triangulate threads seed planes plane_kind vertices report
+    facet_list format verify progress quiet""".split()
+FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
+# A hull of some millions of facets: it takes long enough to be interrupted, and its few points make an end quick.
+LONG_RUN = "400 s D9 t1"
+
+
+def test_report_of_the_diamonds():
+    report = report_of(DIAMONDS, "--unit-cube")
+    missing = set(KEYS) - set(report)
+    assert not missing, missing
+    assert set(report["options"]) == set(OPTIONS), set(report["options"]) ^ set(OPTIONS)
+    assert report["input"] == {"path": str(DIAMONDS), "points": 53940, "dimension": 7, "rank": 7}
+    assert report["status"] == "complete" and report["length_unit"] == "unit-cube"
+    assert (report["vertices"], report["facets"]) == (258, 19110)
+    assert report["facets"] == report["simplicial_facets"] + report["merged_facets"]
+    assert report["simplices"] >= report["facets"]
+    assert report["outer_volume"] is None and report["area"] > 0 and report["volume"] > 0
+    assert 0 < report["roundoff"] < 1e-13
+    assert report["width_ratio"] == report["max_facet_width"] / report["roundoff"]
+    assert report["max_outer_offset"] >= 0 >= report["min_inner_offset"]
+    assert report["points_outside"] == 0 and 0 <= report["max_outside_gauge"] < 1e-9
+    points = numpy.load(DIAMONDS).astype(float)
+    interior = report["interior_point"]
+    assert all(points.min(axis=0) < interior) and all(interior < points.max(axis=0))
+    seconds = report["seconds"]
+    phases = ["read", "growth", "certify", "merge", "select", "verify", "write", "total"]
+    assert list(seconds) == phases and seconds["total"] >= sum(seconds[phase] for phase in phases[:-1]) * 0.99
+    assert report["peak_memory_bytes"] > points.nbytes / 2
+    assert "facet_list" not in report and "selected" not in report
+
+
+def test_options_in_the_report_are_those_in_force():
+    folder = fresh_folder("options")
+    options = report_of(DIAMONDS, "--max-memory", "1.5G", "--max-seconds", "100.5", "--threads", "1", "--seed", "7",
+                        "--triangulate", "--planes", folder / "p.npy", "--plane-kind", "mean", "--verify",
+                        "--max-facets", "1000000", "--quiet")["options"]  # fmt: skip
+    expected = {"max_memory": 1.5 * 2**30, "max_seconds": 100.5, "threads": 1, "seed": 7, "triangulate": True,
+                "unit_cube": False, "planes": str(folder / "p.npy"), "plane_kind": "mean", "vertices": None,
+                "verify": "floating", "max_facets": 1000000, "report": "-", "quiet": True}  # fmt: skip
+    assert {name: options[name] for name in expected} == expected, options
+
+
+def test_facet_list_agrees_with_the_report():
+    folder = fresh_folder("facet_list")
+    report = report_of(DIAMONDS, "--facet-list", "--planes", folder / "mean.npy", "--plane-kind", "mean")
+    facets = report["facet_list"]
+    assert len(facets) == report["facets"] and all(list(facet) == FACET_KEYS for facet in facets)
+    assert abs(sum(facet["area"] for facet in facets) / report["area"] - 1) < 1e-12
+    assert sum(facet["simplices"] for facet in facets) == report["simplices"]
+    assert max(facet["outer_offset"] for facet in facets) == report["max_outer_offset"]
+    assert min(facet["inner_offset"] for facet in facets) == report["min_inner_offset"]
+    assert len({vertex for facet in facets for vertex in facet["vertices"]}) == report["vertices"]
+    for row, facet in enumerate(facets):
+        assert all(row in facets[neighbor]["neighbors"] for neighbor in facet["neighbors"]), row
+    # The same doubles in JSON as in the binary file.
+    rows = numpy.array([facet["normal"] + [facet["offset"]] for facet in facets])
+    assert (rows == numpy.load(folder / "mean.npy")).all()
+
+
+def test_summary_without_an_output_and_nothing_with_quiet():
+    summary = run("hull", DIAMONDS, "--unit-cube").stdout
+    for text in ("53,940 points in 7-d, complete", "vertices  258", "19,110", "[input^7]", "[unit cube]", "time"):
+        assert text in summary, summary
+    quiet = run("hull", DIAMONDS, "--quiet")
+    assert quiet.stdout == quiet.stderr == ""
+
+
+def test_flat_input_says_so():
+    folder = fresh_folder("flat")
+    box = rbox("50 D3 t1", folder / "box.npy")
+    points = box @ numpy.arange(15.0).reshape(3, 5) ** 0.5 + 2.0
+    numpy.save(folder / "flat.npy", points)
+    summary = run("hull", folder / "flat.npy").stdout
+    assert "rank      3" in summary and "subspace" in summary and "[input^3]" in summary, summary
+    report = report_of(folder / "flat.npy", "--planes", folder / "planes.npy", "--verify", "exact")
+    assert report["input"]["rank"] == 3 and len(report["subspace_equations"]) == 2
+    for equation in report["subspace_equations"]:
+        assert abs(points @ equation["normal"] + equation["offset"]).max() < 1e-13
+    planes = numpy.load(folder / "planes.npy")
+    assert (points @ planes[:, :-1].T + planes[:, -1]).max() <= 0
+    numpy.save(folder / "equal.npy", numpy.ones((5, 4)))
+    report = report_of(folder / "equal.npy", "--verify")
+    assert report["input"]["rank"] == report["facets"] == 0 and report["width_ratio"] is None
+    assert "rank      0" in run("hull", folder / "equal.npy").stdout
+
+
+def test_limits_end_growth_and_the_status_says_which():
+    points = rbox(LONG_RUN, fresh_folder("limits") / "points.npy").shape[0]
+    path = fresh_folder("limits") / "points.npy"
+    rbox(LONG_RUN, path)
+    for limit, value, status in [("--max-facets", 5000, "facet_limit"), ("--max-seconds", 0.5, "time_limit"),
+                                 ("--max-memory", "20M", "memory_limit")]:  # fmt: skip
+        planes = path.with_name("planes.npy")
+        report = report_of(path, limit, value, "--planes", planes)
+        assert report["status"] == status and report["input"]["points"] == points, report["status"]
+        assert report["points_outside"] == 0 and report["max_outside_gauge"] > 0
+        check_no_point_is_above(numpy.load(path), planes)
+
+
+def check_no_point_is_above(points, planes):
+    for block in numpy.array_split(numpy.load(planes), 50):
+        assert (points @ block[:, :-1].T + block[:, -1]).max() <= 0
+
+
+def interrupt(path, seconds, *arguments, again_after=None):
+    words = [PROGRAM, "hull", str(path), *map(str, arguments)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        time.sleep(seconds)
+        process.send_signal(signal.SIGINT)
+        if again_after is not None:
+            time.sleep(again_after)
+            process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=100)
+        return process.returncode, output.decode(), errors.decode()
+
+
+def test_ctrl_c_ends_the_run_with_what_there_is():
+    folder = fresh_folder("interrupt")
+    rbox(LONG_RUN, folder / "points.npy")
+    exit_code, output, _ = interrupt(folder / "points.npy", 1.5, "--report", "-", "--planes", folder / "planes.npy")
+    report = json.loads(output)
+    assert exit_code == 130 and report["status"] == "interrupted", (exit_code, report["status"])
+    assert report["facets"] > 0 and report["points_outside"] == 0
+    check_no_point_is_above(numpy.load(folder / "points.npy"), folder / "planes.npy")
+
+
+def test_the_second_ctrl_c_ends_it_at_once():
+    folder = fresh_folder("interrupt_twice")
+    rbox(LONG_RUN, folder / "points.npy")
+    start = time.monotonic()
+    exit_code, _, _ = interrupt(folder / "points.npy", 1.0, "--report", folder / "report.json", again_after=0.05)
+    assert exit_code == 130 and time.monotonic() - start < 20
+    # It may have been written in between, but then as a whole.
+    assert not (folder / "report.json").exists() or json.loads((folder / "report.json").read_text())
+
+
+def test_ctrl_c_while_reading():
+    with subprocess.Popen([PROGRAM, "hull", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=10) == 130
+        process.stdin.close()
+
+
+def test_verify_in_all_its_spellings():
+    path = fresh_folder("verify") / "points.npy"
+    points = rbox("200 s D5 t1", path)
+    for words, mode in [(["--verify", path], "floating"), ([path, "--verify"], "floating"),
+                        ([path, "--verify", "exact"], "exact"), (["--verify", "exact", path], "exact"),
+                        (["--verify=exact", path], "exact")]:  # fmt: skip
+        report = report_of(*words)
+        assert report["options"]["verify"] == mode == report["verification"]["mode"]
+        assert report["verification"]["passed"] and report["verification"]["claims"]["outer"]["checks"] > 0
+    planes = path.with_name("planes.npy")
+    run("hull", path, "--planes", planes)
+    assert "pass" in run("verify", path, planes).stdout
+    rows = numpy.load(planes)
+    rows[7, -1] += 1e-9
+    numpy.save(planes, rows)
+    assert "plane 7" in run("verify", path, planes, exit_code=2).stdout and points.shape == (200, 5)
+
+
+def test_threads_do_not_change_the_bytes():
+    folder = fresh_folder("threads")
+    files = []
+    for threads in (1, 2, 3):
+        run("hull", DIAMONDS, "--planes", folder / f"{threads}.ine", "--threads", threads)
+        files.append((folder / f"{threads}.ine").read_bytes())
+    assert files[0] == files[1] == files[2]
+
+
+def test_vertices_as_array_and_text():
+    folder = fresh_folder("vertices")
+    run("hull", DIAMONDS, "--vertices", folder / "v.npy")
+    ids = numpy.load(folder / "v.npy")
+    text = run("hull", DIAMONDS, "--vertices", "-").stdout.split()
+    assert ids.tolist() == [int(word) for word in text[1:]] and int(text[0]) == len(ids) == 258
+
+
+def test_pipes_and_formats():
+    points = run("rbox", "100 D4").stdout.encode()
+    lines = run("hull", "-", "--format", "Fs n", stdin=points).stdout.splitlines()
+    assert lines[0].split()[:4] == ["10", "4", "100", "52"], lines[0]
+    assert lines[2] == "5" and int(lines[3]) == 246 == len(lines) - 4
+    reversed_order = run("hull", "-", "--format", "n,Fs", stdin=points).stdout.splitlines()
+    assert reversed_order == lines[2:] + lines[:2]
+
+
+def test_qhalf_reads_our_planes():
+    if shutil.which("qhalf") is None:
+        print("skipped: qhalf is not installed")
+        return
+    points = run("rbox", "30 D4").stdout
+    planes = run("hull", "-", "--format", "n", stdin=points.encode()).stdout
+    corners = subprocess.run(["qhalf", "H0", "Fp"], input=planes, capture_output=True, text=True, check=True)
+    found = numpy.array([line.split() for line in corners.stdout.splitlines()[2:]], dtype=float)
+    given = numpy.array([line.split() for line in points.splitlines()[2:]], dtype=float)
+    ids = [int(word) for word in run("hull", "-", "--format", "Fx", stdin=points.encode()).stdout.split()[1:]]
+    assert len(found) == len(ids)
+    distances = numpy.linalg.norm(found[:, None] - given[ids], axis=2)
+    assert distances.min(axis=0).max() < 1e-11 and distances.min(axis=1).max() < 1e-11
+
+
+def test_progress_is_for_standard_error():
+    path = fresh_folder("progress") / "points.npy"
+    rbox("200 s D8 t1", path)
+    done = run("hull", path, "--progress", "--report", "-")
+    json.loads(done.stdout)
+    for word in ("growth", "points left", "simplices", "furthest", "elapsed", "memory", "write"):
+        assert word in done.stderr, done.stderr
+    assert run("hull", path, "--progress", "--quiet", "--report", "-").stderr == ""
+    assert run("hull", path, "--report", "-").stderr == ""
+
+
+def test_help_has_an_example_for_each_command():
+    commands = ["hull", "generate", "rbox", "verify"]
+    listing = run("--help").stdout
+    for command in commands:
+        assert command in listing and f"Example: ndhull {command if command != 'verify' else 'hull'}" in run(
+            command, "--help").stdout  # fmt: skip
+    assert run("--version").stdout.startswith("ndhull ")
+
+
+if __name__ == "__main__":
+    run_tests(globals())

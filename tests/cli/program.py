@@ -1,0 +1,55 @@
+"""Runs the built program for the tests of the command line."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import numpy
+
+PROGRAM = os.environ["NDHULL"]
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+DIAMONDS = ROOT / "bench" / "data" / "diamonds7.npy"
+SCRATCH = pathlib.Path(os.environ["NDHULL_SCRATCH"])
+
+
+def fresh_folder(name):
+    folder = SCRATCH / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder
+
+
+def run(*arguments, exit_code=0, stdin=b"", timeout=120):
+    """The finished process; stdout and stderr as text."""
+    words = [PROGRAM, *map(str, arguments)]
+    done = subprocess.run(words, input=stdin, capture_output=True, timeout=timeout, check=False)
+    done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
+    assert done.returncode == exit_code, (words, done.returncode, done.stdout[:500], done.stderr[:500])
+    return done
+
+
+def one_error_line(done, code):
+    """stderr is one line that starts with the code, and nothing went to stdout."""
+    assert done.stdout == "", done.stdout[:500]
+    assert done.stderr.endswith("\n") and done.stderr.count("\n") == 1, done.stderr
+    assert done.stderr.startswith(f"ndhull: {code}: "), (code, done.stderr)
+
+
+def rbox(arguments, path):
+    run("rbox", arguments, "-o", path)
+    return numpy.load(path) if path.suffix == ".npy" else path
+
+
+def report_of(*arguments, **keywords):
+    return json.loads(run("hull", *arguments, "--report", "-", **keywords).stdout)
+
+
+def run_tests(tests):
+    for name, test in list(tests.items()):
+        if name.startswith("test_"):
+            test()
+            print("passed:", name)
+            sys.stdout.flush()
