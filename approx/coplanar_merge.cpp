@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "core/plane_kernels.h"
@@ -35,6 +36,7 @@ class Merger {
     std::uint32_t joined;
     std::vector<std::uint32_t> simplices;
     Vector plane;
+    std::vector<PointId> points;  // sorted; filled before slivers are absorbed
   };
 
   ConstRow plane(std::uint32_t simplex) const { return {complex_.plane(SimplexId{simplex}).data(), rank()}; }
@@ -64,7 +66,7 @@ class Merger {
 
   void grow_from(std::uint32_t seed) {
     const auto id = static_cast<std::uint32_t>(clusters_.size());
-    Cluster cluster{id, {seed}, plane(seed)};
+    Cluster cluster{id, {seed}, plane(seed), {}};
     cluster_of_[seed] = id;
     for (std::size_t i = 0; i < cluster.simplices.size(); ++i) {
       const std::uint32_t simplex = cluster.simplices[i];
@@ -114,38 +116,70 @@ class Merger {
     return cluster;
   }
 
-  // Smallest facets first: a sliver between two flats has all its vertices in both.
+  // A facet that adds nothing to a neighbour joins it: each of its vertices is one of the neighbour's or lies
+  // in the neighbour's plane. Smallest facets first, again until none is left: a sliver's neighbours may be
+  // slivers that join a flat only later.
   void absorb_slivers() {
-    for (std::uint32_t id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
-      const std::vector<PointId> ids = points_of(clusters_[id]);
-      double best_width = tolerance_;
-      std::uint32_t best = kNone;
-      std::vector<std::uint32_t> tried{id};
-      for (const std::uint32_t simplex : clusters_[id].simplices) {
-        for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
-          const std::uint32_t other_cluster = cluster_of_[neighbour.value];
-          if (other_cluster == kNone || other_cluster == id) continue;
-          const std::uint32_t other = root(other_cluster);
-          if (std::find(tried.begin(), tried.end(), other) != tried.end()) continue;
-          tried.push_back(other);
-          double width = 0.0;
-          for (const PointId vertex : ids) {
-            width = std::max(width, std::abs(clusters_[other].plane.dot(point(vertex)) - 1.0));
-            if (width >= best_width) break;
-          }
-          if (width < best_width) {
-            best_width = width;
-            best = other;
-          }
-        }
-      }
-      if (best == kNone) continue;
-      Cluster& into = clusters_[best];
-      into.simplices.insert(into.simplices.end(), clusters_[id].simplices.begin(),
-                            clusters_[id].simplices.end());
-      clusters_[id].simplices.clear();
-      clusters_[id].joined = best;
+    for (Cluster& cluster : clusters_) {
+      cluster.points = points_of(cluster);
+      std::sort(cluster.points.begin(), cluster.points.end());
     }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (auto id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
+        if (clusters_[id].joined != id) continue;
+        const std::uint32_t best = best_host(id);
+        if (best == kNone) continue;
+        join(id, best);
+        changed = true;
+      }
+    }
+  }
+
+  /// The neighbour that `id` adds nothing to, the one in whose plane it lies best; kNone when there is none.
+  std::uint32_t best_host(std::uint32_t id) const {
+    double best_width = HUGE_VAL;
+    std::uint32_t best = kNone;
+    std::vector<std::uint32_t> tried{id};
+    for (const std::uint32_t simplex : clusters_[id].simplices) {
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+        const std::uint32_t other_cluster = cluster_of_[neighbour.value];
+        if (other_cluster == kNone || other_cluster == id) continue;
+        const std::uint32_t other = root(other_cluster);
+        if (std::find(tried.begin(), tried.end(), other) != tried.end()) continue;
+        tried.push_back(other);
+        const double width = added_width(clusters_[id], clusters_[other]);
+        if (width >= best_width) continue;
+        best_width = width;
+        best = other;
+      }
+    }
+    return best;
+  }
+
+  /// Largest distance of the points that `from` would add to `into` from its plane; infinite above the
+  /// tolerance.
+  double added_width(const Cluster& from, const Cluster& into) const {
+    double width = 0.0;
+    for (const PointId id : from.points) {
+      if (std::binary_search(into.points.begin(), into.points.end(), id)) continue;
+      width = std::max(width, std::abs(into.plane.dot(point(id)) - 1.0));
+      if (width >= tolerance_) return HUGE_VAL;
+    }
+    return width;
+  }
+
+  void join(std::uint32_t id, std::uint32_t host) {
+    Cluster& from = clusters_[id];
+    Cluster& into = clusters_[host];
+    into.simplices.insert(into.simplices.end(), from.simplices.begin(), from.simplices.end());
+    std::vector<PointId> all;
+    std::set_union(into.points.begin(), into.points.end(), from.points.begin(), from.points.end(),
+                   std::back_inserter(all));
+    into.points = std::move(all);
+    from.simplices.clear();
+    from.points.clear();
+    from.joined = host;
   }
 
   /// Regular rows first, then simplices beside a merged facet, then the merged facets' simplices, facet by

@@ -182,10 +182,11 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points, bool r
   }
 }
 
-#define NDHULL_FOR_EACH_DIMENSION(CALL)                                                               \
-  CALL(1)                                                                                             \
-  CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) \
-      CALL(14) CALL(15) CALL(16)
+// clang-format off
+#define NDHULL_FOR_EACH_DIMENSION(CALL) \
+  CALL(1) CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) \
+  CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) CALL(14) CALL(15) CALL(16)
+// clang-format on
 
 void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                   std::span<double> max_dot) {
