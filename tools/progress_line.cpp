@@ -23,7 +23,7 @@ std::size_t terminal_columns() {
 }  // namespace
 
 std::string describe(const Progress& progress) {
-  return fmt::format("{}  points left {}  simplices {}  furthest {:.1e}  elapsed {:.1f} s  memory {}",
+  return fmt::format("{}: {} points left, {} simplices, furthest {:.1e}, {:.1f} s, {}",
                      to_string(progress.phase), progress.points_left, progress.simplices,
                      progress.furthest_gauge, progress.elapsed_seconds,
                      format_byte_count(progress.memory_bytes));
@@ -49,7 +49,7 @@ void ProgressLine::show(const Progress& progress) {
 void ProgressLine::show_phase(std::string_view phase) {
   if (!is_due(phase)) return;
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
-  print(fmt::format("{}  elapsed {:.1f} s", phase, elapsed.count()));
+  print(fmt::format("{}: {:.1f} s", phase, elapsed.count()));
 }
 
 void ProgressLine::print(std::string text) {

@@ -40,7 +40,7 @@ class ProgressLine {
   std::string last_phase_;
 };
 
-/// One line: phase, points left, simplices, furthest gauge, elapsed, memory.
+/// One line, mostly below 80 columns: phase, points left, simplices, furthest gauge, elapsed, memory.
 std::string describe(const Progress& progress);
 
 }  // namespace ndhull
