@@ -274,6 +274,7 @@ class HullBuilder {
     } else {
       for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / work_.complex.planes[row]);
     }
+    orient(determinants);
     detail("volumes", start);
     // Without a shifted point every decision was clearer than the shift: all ridges are convex.
     if (!shifted || options_.triangulate) {
@@ -284,6 +285,14 @@ class HullBuilder {
     hull_.layout_ =
         merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
     detail("coplanar merging", merge_start);
+  }
+
+  /// The rows' common orientation may be either; volumes are positive.
+  static void orient(std::span<double> determinants) {
+    double sum = 0.0;
+    for (const double determinant : determinants) sum += determinant;
+    if (sum >= 0.0) return;
+    for (double& determinant : determinants) determinant = -determinant;
   }
 
   void make_facets() {

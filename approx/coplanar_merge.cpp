@@ -56,7 +56,7 @@ class Merger {
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       // |det| / height is the area up to a constant factor.
       if (has_flat_ridge_[simplex])
-        seeds.emplace_back(-determinants_[simplex] * plane(simplex).norm(), simplex);
+        seeds.emplace_back(-std::abs(determinants_[simplex]) * plane(simplex).norm(), simplex);
     }
     std::sort(seeds.begin(), seeds.end());
     for (const auto& [negative_area, seed] : seeds) {
@@ -125,7 +125,7 @@ class Merger {
       std::sort(cluster.points.begin(), cluster.points.end());
     }
     for (bool changed = true; changed;) {
-      changed = false;
+      changed = adopt_enclosed();
       for (auto id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
         if (clusters_[id].joined != id) continue;
         const std::uint32_t best = best_host(id);
@@ -134,6 +134,27 @@ class Merger {
         changed = true;
       }
     }
+  }
+
+  /// A simplex with two ridges to the same facet has all its vertices there, and joins it however it is
+  /// tilted.
+  bool adopt_enclosed() {
+    bool any = false;
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+      if (cluster_of_[simplex] != kNone) continue;
+      std::vector<std::uint32_t> hosts;
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+        if (cluster_of_[neighbour.value] != kNone) hosts.push_back(root(cluster_of_[neighbour.value]));
+      }
+      std::sort(hosts.begin(), hosts.end());
+      const auto twice = std::adjacent_find(hosts.begin(), hosts.end());
+      if (twice == hosts.end()) continue;
+      clusters_[*twice].simplices.push_back(simplex);
+      cluster_of_[simplex] = *twice;
+      has_flat_ridge_[simplex] = 1;
+      any = true;
+    }
+    return any;
   }
 
   /// The neighbour that `id` adds nothing to, the one in whose plane it lies best; kNone when there is none.
@@ -285,11 +306,31 @@ class Merger {
   FacetLayout layout_;
 };
 
+/// A merged facet hardly larger than the tolerance can be left with fewer than rank vertices: it keeps all
+/// its points. One too many is harmless, one too few is not.
+void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
+                          std::vector<bool>& is_vertex) {
+  std::vector<PointId> points;
+  for (std::size_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
+    points.clear();
+    for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
+      const auto vertices = complex.vertices(SimplexId{row});
+      points.insert(points.end(), vertices.begin(), vertices.end());
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const auto kept =
+        std::count_if(points.begin(), points.end(), [&](PointId id) { return is_vertex[id.value]; });
+    if (static_cast<std::size_t>(kept) >= complex.rank) continue;
+    for (const PointId id : points) is_vertex[id.value] = true;
+  }
+}
+
 /// Do the normals of these facets span all dimensions? Gram-Schmidt, done as soon as they do.
 bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_t> incident) {
   // Normals closer than this to the span of others are taken to lie in it: merged planes agree with the true
-  // ones to about roundoff over the facet's size, far below.
-  constexpr double kIndependent = 1e-7;
+  // ones to about the merging tolerance over the facet's size.
+  constexpr double kIndependent = 1e-9;
   const auto size = static_cast<Eigen::Index>(complex.rank);
   Eigen::MatrixXd found(size, size);
   Eigen::Index count = 0;
@@ -322,14 +363,15 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
 
 std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count) {
-  // All vertices of a regular facet are vertices; the other points are looked at.
+  // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
+  // only are looked at.
   std::vector<bool> is_vertex(point_count, false);
-  for (std::uint32_t row = 0; row < layout.regular; ++row) {
+  for (std::uint32_t row = 0; row < layout.simplicial; ++row) {
     for (const PointId id : complex.vertices(SimplexId{row})) is_vertex[id.value] = true;
   }
   std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
-  for (std::uint32_t row = static_cast<std::uint32_t>(layout.regular); row < complex.row_count; ++row) {
+  for (auto row = static_cast<std::uint32_t>(layout.simplicial); row < complex.row_count; ++row) {
     const std::uint32_t facet = layout.facet_of(SimplexId{row}).value;
     for (const PointId id : complex.vertices(SimplexId{row})) {
       if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
@@ -346,6 +388,7 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
     }
     is_vertex[incidences[begin].first] = normals_span(complex, around);
   }
+  keep_enough_vertices(complex, layout, is_vertex);
   return is_vertex;
 }
 

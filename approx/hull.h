@@ -46,11 +46,11 @@ struct Progress {
 struct HullOptions {
   bool triangulate = false;  ///< facets stay simplices: no coplanar merging
   bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
-  Limits limits;
+  Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
   unsigned threads = 0;    ///< 0: all cores. The result does not depend on it.
-  std::function<void(const Progress&)> progress;  ///< called from the calling thread
-  std::stop_token stop;                           ///< a request ends growth: status kInterrupted
+  std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
+  std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
 
 enum class HullStatus { kComplete, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };

@@ -23,6 +23,7 @@ LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
   for (std::size_t k = 0; k < frame.dimension; ++k) {
     spanned.row(static_cast<Eigen::Index>(k)) *= extents_[k] > 0.0 ? 1.0 / extents_[k] : 0.0;
   }
+  for (Eigen::Index column = 0; column < spanned.cols(); ++column) spanned.col(column).normalize();
   const Eigen::HouseholderQR<Eigen::MatrixXd> factors(spanned);
   const RowMatrix thin =
       (factors.householderQ() * Eigen::MatrixXd::Identity(spanned.rows(), spanned.cols())).transpose();

@@ -28,6 +28,7 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
   for (std::size_t column = 0; column < D; ++column) {
     for (std::size_t row = column + 1; row < D; ++row) {
       const auto larger = hn::Gt(hn::Abs(matrix[row][column]), hn::Abs(matrix[column][column]));
+      determinant = hn::IfThenElse(larger, hn::Neg(determinant), determinant);
       for (std::size_t k = column; k <= D; ++k) {
         const Lane upper = matrix[column][k], lower = matrix[row][k];
         matrix[column][k] = hn::IfThenElse(larger, lower, upper);

@@ -148,6 +148,54 @@ double worst_shape(const Matrix& vertices) {
   return worst;
 }
 
+/// Orthonormal directions, in input units, of the subspace that `directions` (rank x dimension, orthonormal
+/// in scaled coordinates) span.
+///
+/// Where axes differ by many orders of magnitude all directions are nearly parallel to the longest axis in
+/// input units, and orthogonalising them would lose the rest. Elimination first, in scaled coordinates: each
+/// direction keeps one pivot column, a long axis of good size, and differs from that axis by shorter ones
+/// only.
+Matrix orthonormal_in_input_units(Matrix directions, const Vector& scale) {
+  constexpr double kGoodPivot = 1e-2;  // of the largest entry left: bounds what the others are multiplied by
+  const Eigen::Index rank = directions.rows(), columns = directions.cols();
+  std::vector<bool> row_used(static_cast<std::size_t>(rank), false);
+  for (Eigen::Index step = 0; step < rank; ++step) {
+    double largest = 0.0, longest = -1.0;
+    Eigen::Index pivot_row = 0, pivot_column = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Eigen::Index row = 0; row < rank; ++row) {
+        if (row_used[static_cast<std::size_t>(row)]) continue;
+        for (Eigen::Index column = 0; column < columns; ++column) {
+          const double size = scale[column] == 0.0 ? 0.0 : std::abs(directions(row, column));
+          if (pass == 0) largest = std::max(largest, size);
+          if (pass == 0 || size < kGoodPivot * largest || size == 0.0) continue;
+          if (1.0 / scale[column] < longest) continue;
+          if (1.0 / scale[column] == longest && size <= std::abs(directions(pivot_row, pivot_column)))
+            continue;
+          longest = 1.0 / scale[column];
+          pivot_row = row;
+          pivot_column = column;
+        }
+      }
+    }
+    row_used[static_cast<std::size_t>(pivot_row)] = true;
+    directions.row(pivot_row) /= directions(pivot_row, pivot_column);
+    for (Eigen::Index row = 0; row < rank; ++row) {
+      if (row == pivot_row) continue;
+      const double factor = directions(row, pivot_column);
+      directions.row(row) -= factor * directions.row(pivot_row);
+      directions(row, pivot_column) = 0.0;
+    }
+  }
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    directions.col(column) *= scale[column] == 0.0 ? 0.0 : 1.0 / scale[column];
+  }
+  for (Eigen::Index row = 0; row < rank; ++row) directions.row(row).normalize();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(directions.transpose());
+  const Eigen::MatrixXd thin = factors.householderQ() * Eigen::MatrixXd::Identity(columns, rank);
+  return thin.transpose();
+}
+
 /// Vertices of a regular simplex around 0 with circumradius 1: (rank + 1) x rank.
 Matrix regular_simplex(Eigen::Index rank) {
   Matrix vertices = Matrix::Zero(rank + 1, rank);
@@ -245,15 +293,7 @@ Frame fit_frame(const PointView& points) {
   frame.map.assign(map.data(), map.data() + map.size());
 
   if (frame.rank < dimension) {
-    // Directions of the subspace in input units: x - centre is in the span of scale^-1 directions.
-    Matrix spanned = simplex.directions;
-    for (Eigen::Index k = 0; k < columns; ++k) {
-      spanned.col(k) *= scale[k] == 0.0 ? 0.0 : 1.0 / scale[k];
-    }
-    for (Eigen::Index row = 0; row < rank; ++row) spanned.row(row).normalize();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(spanned.transpose());
-    const Eigen::MatrixXd thin = factors.householderQ() * Eigen::MatrixXd::Identity(columns, rank);
-    const Matrix basis = thin.transpose();
+    const Matrix basis = orthonormal_in_input_units(simplex.directions, scale);
     frame.basis.assign(basis.data(), basis.data() + basis.size());
   }
   return frame;

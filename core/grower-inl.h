@@ -127,7 +127,7 @@ class Grower {
   void undo_cone();
   void commit();
   void partition(std::uint32_t apex);
-  enum class Outcome { kAdded, kRejected, kNoRoom };
+  enum class Outcome { kAdded, kRejected, kNoRoom, kPastLimit };
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
   bool room_for_cone();
@@ -235,6 +235,11 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     find_visible(point(apex_id), seed, shift);
     clock.lap(work_.counters.seconds_visible);
     if (!room_for_cone()) return Outcome::kNoRoom;
+    if (work_.options.max_rows != 0 &&
+        live_rows() + horizon_count_ - visible_count_ > work_.options.max_rows) {
+      forget_visible();
+      return Outcome::kPastLimit;
+    }
     // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
     const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
     if (certain) shift = 0.0;
@@ -290,10 +295,10 @@ GrowthStop Grower<D>::run() {
       if (stop != GrowthStop::kNoOutsidePoints) return stop;
       polled_at = work_.counters.created + 4096;
     }
-    if (work_.options.max_rows != 0 && live_rows() >= work_.options.max_rows) return GrowthStop::kFacetLimit;
     switch (insert(apex_id, row)) {
       case Outcome::kAdded: break;
       case Outcome::kNoRoom: return GrowthStop::kMemoryLimit;
+      case Outcome::kPastLimit: return GrowthStop::kFacetLimit;
       case Outcome::kRejected:  // certify will measure what it costs
         ++work_.counters.set_aside;
         drop_first(row);

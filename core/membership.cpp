@@ -85,10 +85,13 @@ void prove_block(const SimplicialComplex& complex, const double* points, const H
   residual =
       hn::MulAdd(hn::Set(tag, kGamma * D), hn::Mul(reach, hn::Add(magnitude, hn::Set(tag, 1.0))), residual);
   const Lane covered = hn::Mul(unit, hn::MulAdd(negative, reach, residual));
-  HWY_ALIGN double gauge[HWY_MAX_BYTES / sizeof(double)];
+  HWY_ALIGN double gauge[HWY_MAX_BYTES / sizeof(double)], slack[HWY_MAX_BYTES / sizeof(double)];
   hn::Store(hn::Sub(hn::Add(sum, covered), hn::Set(tag, 1.0)), tag, gauge);
+  hn::Store(covered, tag, slack);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    block[lane].gauge = gauge[lane] == gauge[lane] ? gauge[lane] : HUGE_VAL;
+    const bool solved = std::isfinite(gauge[lane]);
+    block[lane].gauge = solved ? gauge[lane] : HUGE_VAL;
+    block[lane].slack = solved ? slack[lane] : HUGE_VAL;
   }
 }
 
@@ -137,13 +140,19 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// A proof is wanted up to this gauge: what is worse may come from the wrong simplex. One shift of growth.
+/// Slack in a proof that a better simplex need not save. One shift of growth.
 constexpr double kUseful = 1e-12;
+/// Products that looking for better simplices everywhere may cost.
+constexpr double kSearchProducts = 1e10;
+
+/// Is the proof as good as is wanted? Inside, or outside by what it says and no less.
+bool is_settled(const LocatedPoint& located) { return located.gauge <= kUseful || located.slack <= kUseful; }
 
 /// Coordinates of y in the simplex's cone, with the gauge they prove.
 struct ConeCoordinates {
   Vector lambda;
   double gauge = HUGE_VAL;
+  double slack = HUGE_VAL;
 };
 
 class Walker {
@@ -156,9 +165,9 @@ class Walker {
   void walk(LocatedPoint& located) const {
     const std::size_t step_limit = 64 + 8 * complex_.rank;
     SimplexId at = located.simplex;
-    for (std::size_t step = 0; step < step_limit && located.gauge > kUseful; ++step) {
+    for (std::size_t step = 0; step < step_limit && !is_settled(located); ++step) {
       const ConeCoordinates coordinates = coordinates_of(located.point, at);
-      take_better(located, at, coordinates.gauge);
+      take_better(located, at, coordinates);
       Eigen::Index lowest = 0;
       if (!coordinates.lambda.allFinite()) return;
       if (coordinates.lambda.minCoeff(&lowest) >= 0.0) return;
@@ -180,15 +189,16 @@ class Walker {
     }
     for (const auto& [product, row] : products) {
       if (product < best - kUseful) continue;
-      take_better(located, SimplexId{row}, coordinates_of(located.point, SimplexId{row}).gauge);
-      if (located.gauge <= std::max(kUseful, best - 1.0 + kUseful)) return;
+      take_better(located, SimplexId{row}, coordinates_of(located.point, SimplexId{row}));
+      if (is_settled(located)) return;
     }
   }
 
  private:
-  static void take_better(LocatedPoint& located, SimplexId simplex, double gauge) {
-    if (!(gauge < located.gauge)) return;
-    located.gauge = gauge;
+  static void take_better(LocatedPoint& located, SimplexId simplex, const ConeCoordinates& coordinates) {
+    if (!(coordinates.gauge < located.gauge)) return;
+    located.gauge = coordinates.gauge;
+    located.slack = coordinates.slack;
     located.simplex = simplex;
   }
 
@@ -208,7 +218,8 @@ class Walker {
     const double n = static_cast<double>(rank_);
     const double computed = 2.0 * (n + 2.0) * 0x1p-53 * n * ball_.reach * (1.0 + positive + negative);
     const double residual = (y - columns * result.lambda).lpNorm<1>() + computed;
-    result.gauge = positive + (negative * ball_.reach + residual) / ball_.inner_radius - 1.0;
+    result.slack = (negative * ball_.reach + residual) / ball_.inner_radius;
+    result.gauge = positive + result.slack - 1.0;
     return result;
   }
 
@@ -241,8 +252,9 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
     }
     longest_dual = std::max(longest_dual, rows.partialPivLu().solve(Vector::Ones(size)).norm());
   }
-  // Half of what was computed: the frame keeps the simplex well shaped, so the solve's error is far below.
-  ball.inner_radius = 0.5 / longest_dual;
+  // The frame keeps the simplex well shaped (condition about 1e6 at the worst): the solve's error is far
+  // below.
+  ball.inner_radius = 0.999 / longest_dual;
   return ball;
 }
 
@@ -250,7 +262,7 @@ std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const dou
                                      const HullBall& ball, std::span<const PointId> queries) {
   std::vector<LocatedPoint> located;
   located.reserve(queries.size());
-  for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL});
+  for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL, HUGE_VAL});
   HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, located);
   return located;
 }
@@ -260,10 +272,17 @@ std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const d
                                        std::uint64_t& searched_all) {
   std::vector<LocatedPoint> located = try_inside(complex, points, ball, queries);
   const Walker walker(complex, points, ball);
+  std::size_t unsettled = 0;
   for (LocatedPoint& point : located) {
-    if (point.gauge <= kUseful) continue;
+    if (is_settled(point)) continue;
     walker.walk(point);
-    if (point.gauge <= kUseful) continue;
+    unsettled += is_settled(point) ? 0u : 1u;
+  }
+  const double products =
+      static_cast<double>(unsettled) * static_cast<double>(complex.row_count * complex.rank);
+  if (products > kSearchProducts) return located;
+  for (LocatedPoint& point : located) {
+    if (is_settled(point)) continue;
     walker.search_all(point);
     ++searched_all;
   }

@@ -21,6 +21,7 @@ struct LocatedPoint {
   SimplexId simplex;
   double gauge =
       0.0;  ///< proven upper bound on (scale at which the hull holds the point) - 1; +inf: no proof
+  double slack = 0.0;  ///< the part of it that covers negative coordinates and rounding
 };
 
 /// The numbers a proof needs besides the complex.
@@ -37,8 +38,10 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 /// coordinates, then all simplices) and proves its gauge.
 ///
 /// Shapes  points: any number of rows x rank.  Result: one entry a query, in their order.
-/// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query; all
-///         simplices for those where walking ends in no proof (counted in `searched_all`).
+/// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query. Where
+/// walking
+///         ends in a proof with slack all simplices are tried (counted in `searched_all`), unless that would
+///         be more than some 1e10 products in all: then the proofs stay as they are.
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
                                        const HullBall& ball, std::span<const PointId> queries,
                                        std::uint64_t& searched_all);

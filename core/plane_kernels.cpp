@@ -140,7 +140,7 @@ void solve_block(const double* const* rows, double* dual_out, double* determinan
   }
   const Lane determinant = eliminate<D>(matrix, dual);
   for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, dual_out + k * lanes);
-  hn::StoreU(hn::Abs(determinant), tag, determinant_out);
+  hn::StoreU(determinant, tag, determinant_out);
 }
 
 /// Takes the solved plane when it is one: finite and near the plane that growth made.
@@ -173,7 +173,7 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points, bool r
     solve_block<D>(rows.data(), dual.data(), determinant.data());
     for (std::size_t lane = 0; lane < used; ++lane) {
       // A zero pivot, of a simplex without volume, turns into NaN further down.
-      determinants[begin + lane] = determinant[lane] > 0.0 ? determinant[lane] : 0.0;
+      determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;
     }
     if (!replace_planes) continue;
     for (std::size_t lane = 0; lane < used; ++lane) {

@@ -37,8 +37,10 @@ void mark_flat(const SimplicialComplex& complex, const double* points, double to
 
 /// Solves for the plane through each simplex's own vertices and the volume of its cone to the origin.
 ///
-/// Shapes  points: point_count x rank (the frame); determinants: complex.row_count, |det| of the vertex rows
-///         = rank! times the volume of the cone.
+/// Shapes  points: point_count x rank (the frame); determinants: complex.row_count, the determinant of the
+/// vertex
+///         rows = +-rank! times the volume of the cone. The rows are oriented alike, so the sign is the same
+///         for all but simplices that are folded back over others; with signs their sum is right even then.
 /// Planes  with `replace_planes` the complex's planes (made from shifted points) are replaced by the solved
 ///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
 ///         has no plane of its own to speak of.
