@@ -125,7 +125,7 @@ class Merger {
       std::sort(cluster.points.begin(), cluster.points.end());
     }
     for (bool changed = true; changed;) {
-      changed = adopt_enclosed();
+      changed = adopt_enclosed() || adopt_pinned();
       for (auto id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
         if (clusters_[id].joined != id) continue;
         const std::uint32_t best = best_host(id);
@@ -149,12 +149,84 @@ class Merger {
       std::sort(hosts.begin(), hosts.end());
       const auto twice = std::adjacent_find(hosts.begin(), hosts.end());
       if (twice == hosts.end()) continue;
-      clusters_[*twice].simplices.push_back(simplex);
-      cluster_of_[simplex] = *twice;
-      has_flat_ridge_[simplex] = 1;
+      adopt(simplex, *twice);
       any = true;
     }
     return any;
+  }
+
+  /// A vertex of a hull is in at least rank facets. A simplex that has a vertex in fewer, all the others
+  /// around it being merged, is a sliver thicker than the tolerance: it joins the facet whose plane it is
+  /// nearest to.
+  bool adopt_pinned() {
+    const std::size_t enough = complex_.rank;
+    std::vector<bool> in_cluster;
+    for (const Cluster& cluster : clusters_) {
+      if (cluster.simplices.size() < 2) continue;
+      if (cluster.points.back().value >= in_cluster.size())
+        in_cluster.resize(cluster.points.back().value + 1u);
+      for (const PointId id : cluster.points) in_cluster[id.value] = true;
+    }
+    std::vector<std::vector<std::uint32_t>> facets_at(in_cluster.size());
+    const auto in_doubt = [&](PointId id) { return id.value < in_cluster.size() && in_cluster[id.value]; };
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+      for (const PointId id : complex_.vertices(SimplexId{simplex})) {
+        if (!in_doubt(id)) continue;
+        std::vector<std::uint32_t>& facets = facets_at[id.value];
+        const std::uint32_t facet = facet_name(simplex);
+        if (facets.size() >= enough || std::find(facets.begin(), facets.end(), facet) != facets.end())
+          continue;
+        facets.push_back(facet);
+      }
+    }
+    bool any = false;
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+      if (is_merged(simplex)) continue;
+      const auto vertices = complex_.vertices(SimplexId{simplex});
+      const bool pinned = std::any_of(vertices.begin(), vertices.end(), [&](PointId id) {
+        return in_doubt(id) && facets_at[id.value].size() < enough;
+      });
+      if (pinned) any = adopt_nearest(simplex) || any;
+    }
+    return any;
+  }
+
+  bool is_merged(std::uint32_t simplex) const {
+    return cluster_of_[simplex] != kNone && clusters_[root(cluster_of_[simplex])].simplices.size() > 1;
+  }
+
+  /// A number for the facet of a simplex, different for different facets.
+  std::uint32_t facet_name(std::uint32_t simplex) const {
+    const auto count = static_cast<std::uint32_t>(complex_.row_count);
+    return cluster_of_[simplex] == kNone ? simplex : count + root(cluster_of_[simplex]);
+  }
+
+  bool adopt_nearest(std::uint32_t simplex) {
+    double best_width = HUGE_VAL;
+    std::uint32_t best = kNone;
+    for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+      if (!is_merged(neighbour.value)) continue;
+      const std::uint32_t host = root(cluster_of_[neighbour.value]);
+      const double width =
+          std::abs(clusters_[host].plane.dot(point(opposite_vertex(simplex, neighbour.value))) - 1.0);
+      if (width >= best_width) continue;
+      best_width = width;
+      best = host;
+    }
+    if (best != kNone) adopt(simplex, best);
+    return best != kNone;
+  }
+
+  /// Moves a simplex that is a facet of its own into `host`.
+  void adopt(std::uint32_t simplex, std::uint32_t host) {
+    if (cluster_of_[simplex] == kNone) {
+      cluster_of_[simplex] = static_cast<std::uint32_t>(clusters_.size());
+      clusters_.push_back({cluster_of_[simplex], {simplex}, plane(simplex), {}});
+      clusters_.back().points = points_of(clusters_.back());
+      std::sort(clusters_.back().points.begin(), clusters_.back().points.end());
+    }
+    has_flat_ridge_[simplex] = 1;
+    join(cluster_of_[simplex], host);
   }
 
   /// The neighbour that `id` adds nothing to, the one in whose plane it lies best; kNone when there is none.
@@ -306,47 +378,6 @@ class Merger {
   FacetLayout layout_;
 };
 
-/// A merged facet hardly larger than the tolerance can be left with fewer than rank vertices: it keeps all
-/// its points. One too many is harmless, one too few is not.
-void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
-                          std::vector<bool>& is_vertex) {
-  std::vector<PointId> points;
-  for (std::size_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
-    points.clear();
-    for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
-      const auto vertices = complex.vertices(SimplexId{row});
-      points.insert(points.end(), vertices.begin(), vertices.end());
-    }
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    const auto kept =
-        std::count_if(points.begin(), points.end(), [&](PointId id) { return is_vertex[id.value]; });
-    if (static_cast<std::size_t>(kept) >= complex.rank) continue;
-    for (const PointId id : points) is_vertex[id.value] = true;
-  }
-}
-
-/// Do the normals of these facets span all dimensions? Gram-Schmidt, done as soon as they do.
-bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_t> incident) {
-  // Normals closer than this to the span of others are taken to lie in it: merged planes agree with the true
-  // ones to about the merging tolerance over the facet's size.
-  constexpr double kIndependent = 1e-9;
-  const auto size = static_cast<Eigen::Index>(complex.rank);
-  Eigen::MatrixXd found(size, size);
-  Eigen::Index count = 0;
-  for (const std::uint32_t facet : incident) {
-    Vector normal = ConstRow(complex.plane(SimplexId{facet}).data(), size).normalized();
-    for (int pass = 0; pass < 2; ++pass) {
-      normal -= found.leftCols(count) * (found.leftCols(count).transpose() * normal);
-    }
-    const double rest = normal.norm();
-    if (rest <= kIndependent) continue;
-    found.col(count++) = normal / rest;
-    if (count == size) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,
@@ -359,37 +390,6 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   layout.regular = layout.simplicial = layout.facets = complex.row_count;
   layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
   return layout;
-}
-
-std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
-                                std::size_t point_count) {
-  // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
-  // only are looked at.
-  std::vector<bool> is_vertex(point_count, false);
-  for (std::uint32_t row = 0; row < layout.simplicial; ++row) {
-    for (const PointId id : complex.vertices(SimplexId{row})) is_vertex[id.value] = true;
-  }
-  std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
-  for (auto row = static_cast<std::uint32_t>(layout.simplicial); row < complex.row_count; ++row) {
-    const std::uint32_t facet = layout.facet_of(SimplexId{row}).value;
-    for (const PointId id : complex.vertices(SimplexId{row})) {
-      if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
-      last_facet[id.value] = facet;
-      incidences.emplace_back(id.value, facet);
-    }
-  }
-  std::sort(incidences.begin(), incidences.end());
-  std::vector<std::uint32_t> around;
-  for (std::size_t begin = 0, end = 0; begin < incidences.size(); begin = end) {
-    around.clear();
-    for (end = begin; end < incidences.size() && incidences[end].first == incidences[begin].first; ++end) {
-      around.push_back(incidences[end].second);
-    }
-    is_vertex[incidences[begin].first] = normals_span(complex, around);
-  }
-  keep_enough_vertices(complex, layout, is_vertex);
-  return is_vertex;
 }
 
 }  // namespace ndhull

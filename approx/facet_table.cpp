@@ -21,7 +21,8 @@ double volume_scale(const Frame& frame) {
   const ConstRows map = rows_of(frame.map, frame.rank, frame.dimension);
   if (frame.rank == frame.dimension) return std::abs(RowMatrix(map).determinant());
   const ConstRows basis = rows_of(frame.basis, frame.rank, frame.dimension);
-  return std::abs(RowMatrix(map * basis.transpose()).determinant());
+  const double spanned = RowMatrix(basis * basis.transpose()).determinant();
+  return std::abs(RowMatrix(map * basis.transpose()).determinant()) / std::sqrt(spanned);
 }
 
 /// Unit normals in input coordinates of planes in the frame. `out` may be the same memory as `planes` when
@@ -31,7 +32,8 @@ void map_normals(const Frame& frame, const double* planes, std::size_t count, do
   RowMatrix to_input = rows_of(frame.map, rank, dimension);
   if (rank < dimension) {  // keep the part of the normal that lies in the subspace
     const ConstRows basis = rows_of(frame.basis, rank, dimension);
-    to_input = (to_input * basis.transpose() * basis).eval();
+    const RowMatrix gram = basis * basis.transpose();
+    to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
   }
   constexpr std::size_t kBlock = 256;
   RowMatrix block;

@@ -155,7 +155,7 @@ double worst_shape(const Matrix& vertices) {
 /// input units, and orthogonalising them would lose the rest. Elimination first, in scaled coordinates: each
 /// direction keeps one pivot column, a long axis of good size, and differs from that axis by shorter ones
 /// only.
-Matrix orthonormal_in_input_units(Matrix directions, const Vector& scale) {
+Matrix directions_in_input_units(Matrix directions, const Vector& scale) {
   constexpr double kGoodPivot = 1e-2;  // of the largest entry left: bounds what the others are multiplied by
   const Eigen::Index rank = directions.rows(), columns = directions.cols();
   std::vector<bool> row_used(static_cast<std::size_t>(rank), false);
@@ -191,9 +191,7 @@ Matrix orthonormal_in_input_units(Matrix directions, const Vector& scale) {
     directions.col(column) *= scale[column] == 0.0 ? 0.0 : 1.0 / scale[column];
   }
   for (Eigen::Index row = 0; row < rank; ++row) directions.row(row).normalize();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(directions.transpose());
-  const Eigen::MatrixXd thin = factors.householderQ() * Eigen::MatrixXd::Identity(columns, rank);
-  return thin.transpose();
+  return directions;
 }
 
 /// Vertices of a regular simplex around 0 with circumradius 1: (rank + 1) x rank.
@@ -293,7 +291,7 @@ Frame fit_frame(const PointView& points) {
   frame.map.assign(map.data(), map.data() + map.size());
 
   if (frame.rank < dimension) {
-    const Matrix basis = orthonormal_in_input_units(simplex.directions, scale);
+    const Matrix basis = directions_in_input_units(simplex.directions, scale);
     frame.basis.assign(basis.data(), basis.data() + basis.size());
   }
   return frame;

@@ -21,7 +21,9 @@ struct Frame {
   std::vector<double> map;     ///< rank x dimension, row-major
   /// True when each row of the map has one entry, a power of two: then y has the rounding of x - centre only.
   bool is_diagonal = false;
-  /// rank < dimension: orthonormal directions of the affine subspace, rank x dimension; otherwise empty.
+  /// rank < dimension: independent directions of length 1 that span the affine subspace, rank x dimension;
+  /// otherwise empty. Nearly orthogonal; small entries are right to all their digits, which orthogonalising
+  /// would lose.
   std::vector<double> basis;
   std::vector<PointId> simplex;                ///< rank + 1 affinely independent points; centre is their mean
   std::vector<double> column_min, column_max;  ///< of the input

@@ -1,0 +1,95 @@
+// Which points of the merged hull are vertices.
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "approx/coplanar_merge.h"
+
+namespace ndhull {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using ConstRow = Eigen::Map<const Vector>;
+
+/// A merged facet hardly larger than the tolerance can be left with fewer than rank vertices. It keeps as
+/// many of its points as it needs, those in most facets first (`facets_at`: how many, for points in merged
+/// facets only). One vertex too many is harmless, one too few is not.
+void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
+                          const std::vector<std::uint32_t>& facets_at, std::vector<bool>& is_vertex) {
+  std::vector<PointId> points;
+  for (std::size_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
+    points.clear();
+    for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
+      const auto vertices = complex.vertices(SimplexId{row});
+      points.insert(points.end(), vertices.begin(), vertices.end());
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    auto kept = static_cast<std::size_t>(
+        std::count_if(points.begin(), points.end(), [&](PointId id) { return is_vertex[id.value]; }));
+    if (kept >= complex.rank) continue;
+    std::stable_sort(points.begin(), points.end(),
+                     [&](PointId a, PointId b) { return facets_at[a.value] > facets_at[b.value]; });
+    for (const PointId id : points) {
+      if (is_vertex[id.value] || kept >= complex.rank) continue;
+      is_vertex[id.value] = true;
+      ++kept;
+    }
+  }
+}
+
+/// Do the normals of these facets span all dimensions? Gram-Schmidt, done as soon as they do.
+bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_t> incident) {
+  // Normals closer than this to the span of others are taken to lie in it: merged planes agree with the true
+  // ones to about the merging tolerance over the facet's size.
+  constexpr double kIndependent = 1e-9;
+  const auto size = static_cast<Eigen::Index>(complex.rank);
+  Eigen::MatrixXd found(size, size);
+  Eigen::Index count = 0;
+  for (const std::uint32_t facet : incident) {
+    Vector normal = ConstRow(complex.plane(SimplexId{facet}).data(), size).normalized();
+    for (int pass = 0; pass < 2; ++pass) {
+      normal -= found.leftCols(count) * (found.leftCols(count).transpose() * normal);
+    }
+    const double rest = normal.norm();
+    if (rest <= kIndependent) continue;
+    found.col(count++) = normal / rest;
+    if (count == size) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
+                                std::size_t point_count) {
+  // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
+  // only are looked at.
+  std::vector<bool> is_vertex(point_count, false);
+  for (std::uint32_t row = 0; row < layout.simplicial; ++row) {
+    for (const PointId id : complex.vertices(SimplexId{row})) is_vertex[id.value] = true;
+  }
+  std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
+  for (auto row = static_cast<std::uint32_t>(layout.simplicial); row < complex.row_count; ++row) {
+    const std::uint32_t facet = layout.facet_of(SimplexId{row}).value;
+    for (const PointId id : complex.vertices(SimplexId{row})) {
+      if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
+      last_facet[id.value] = facet;
+      incidences.emplace_back(id.value, facet);
+    }
+  }
+  std::sort(incidences.begin(), incidences.end());
+  std::vector<std::uint32_t> around, facets_at(point_count, 0);
+  for (std::size_t begin = 0, end = 0; begin < incidences.size(); begin = end) {
+    around.clear();
+    for (end = begin; end < incidences.size() && incidences[end].first == incidences[begin].first; ++end) {
+      around.push_back(incidences[end].second);
+    }
+    facets_at[incidences[begin].first] = static_cast<std::uint32_t>(around.size());
+    is_vertex[incidences[begin].first] = normals_span(complex, around);
+  }
+  keep_enough_vertices(complex, layout, facets_at, is_vertex);
+  return is_vertex;
+}
+
+}  // namespace ndhull
