@@ -4,6 +4,8 @@
 //   3 certify          core/membership      every point proven inside, or put back: growth goes on
 //   4 merge            approx/coplanar_merge  simplices on one plane become one facet
 //   5 facet table      approx/facet_table   planes in input units, outer and inner offsets proven, areas
+#include <tbb/task_arena.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
@@ -374,7 +376,9 @@ class HullBuilder {
 };
 
 Hull convex_hull(const PointView& points, const HullOptions& options) {
-  return HullBuilder(points, options).run();
+  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
+                                             : static_cast<int>(options.threads));
+  return arena.execute([&] { return HullBuilder(points, options).run(); });
 }
 
 }  // namespace ndhull

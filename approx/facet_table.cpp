@@ -1,5 +1,8 @@
 #include "approx/facet_table.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -147,7 +150,12 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
            high.first(layout.simplicial));
   merged_dots(complex, layout, points, normals.data(), low, high);
   const std::span<double> highest(table.outer.data(), count);
-  max_dots(dimension, normals, points.rows, highest);
+  // Facets are independent: the result does not depend on how they are shared out.
+  constexpr std::size_t kFacetsAtATime = 4096;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kFacetsAtATime), [&](const auto& facets) {
+    max_dots(dimension, normals.subspan(facets.begin() * dimension, facets.size() * dimension), points.rows,
+             highest.subspan(facets.begin(), facets.size()));
+  });
 
   const double volume_per_determinant =
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));

@@ -48,7 +48,7 @@ struct HullOptions {
   bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
-  unsigned threads = 0;    ///< 0: all cores. The result does not depend on it.
+  unsigned threads = 0;    ///< for the certificate; 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
