@@ -13,6 +13,7 @@
 
 #include "approx/facet_layout.h"
 #include "approx/length_unit.h"
+#include "core/dimension_switch.h"
 #include "core/huge_array.h"
 #include "core/id_rows.h"
 #include "core/ids.h"
@@ -147,8 +148,5 @@ class Hull {
 /// Source    core/DESIGN.md; Barber, Dobkin, Huhdanpaa. The Quickhull algorithm for convex hulls. ACM
 ///           TOMS 22(4), 1996, for the frame of the algorithm.
 Hull convex_hull(const PointView& points, const HullOptions& options = {});
-
-/// The highest affine rank that growth is compiled for.
-inline constexpr std::size_t kMaxRank = 16;
 
 }  // namespace ndhull

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "core/cone-inl.h"
+#include "core/dimension_switch.h"
 #include "core/grower-inl.h"
 #include "core/visible_set-inl.h"
 
@@ -23,16 +24,7 @@ GrowthStop run_in_dimension(GrowthWork& work) {
 }
 
 GrowthStop run_growth(GrowthWork& work) {
-  switch (work.rank) {
-// clang-format off
-#define NDHULL_CASE(D) case D: return run_in_dimension<D>(work);
-    NDHULL_CASE(2) NDHULL_CASE(3) NDHULL_CASE(4) NDHULL_CASE(5) NDHULL_CASE(6)
-    NDHULL_CASE(7) NDHULL_CASE(8) NDHULL_CASE(9) NDHULL_CASE(10) NDHULL_CASE(11)
-    NDHULL_CASE(12) NDHULL_CASE(13) NDHULL_CASE(14) NDHULL_CASE(15) NDHULL_CASE(16)
-#undef NDHULL_CASE
-        // clang-format on
-        default : NDHULL_CHECK(!"rank is checked before growth starts");
-  }
+  return call_with_dimension<2, kMaxRank>(work.rank, [&](auto d) { return run_in_dimension<d>(work); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "core/block_elimination-inl.h"
-#include "core/error.h"
+#include "core/dimension_switch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -116,16 +116,8 @@ void locate_all(const SimplicialComplex& complex, const double* points, const Hu
 
 void locate_any(const SimplicialComplex& complex, const double* points, const HullBall& ball,
                 std::span<LocatedPoint> located) {
-  switch (complex.rank) {
-// clang-format off
-#define NDHULL_CASE(D) case D: return locate_all<D>(complex, points, ball, located);
-    NDHULL_CASE(2) NDHULL_CASE(3) NDHULL_CASE(4) NDHULL_CASE(5) NDHULL_CASE(6)
-    NDHULL_CASE(7) NDHULL_CASE(8) NDHULL_CASE(9) NDHULL_CASE(10) NDHULL_CASE(11)
-    NDHULL_CASE(12) NDHULL_CASE(13) NDHULL_CASE(14) NDHULL_CASE(15) NDHULL_CASE(16)
-#undef NDHULL_CASE
-        // clang-format on
-        default : NDHULL_CHECK(!"rank is checked before growth starts");
-  }
+  call_with_dimension<2, kMaxRank>(complex.rank,
+                                   [&](auto d) { locate_all<d>(complex, points, ball, located); });
 }
 
 }  // namespace HWY_NAMESPACE

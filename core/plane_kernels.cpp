@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/block_elimination-inl.h"
-#include "core/error.h"
+#include "core/dimension_switch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -182,55 +182,33 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points, bool r
   }
 }
 
-// clang-format off
-#define NDHULL_FOR_EACH_DIMENSION(CALL) \
-  CALL(1) CALL(2) CALL(3) CALL(4) CALL(5) CALL(6) CALL(7) CALL(8) \
-  CALL(9) CALL(10) CALL(11) CALL(12) CALL(13) CALL(14) CALL(15) CALL(16)
-// clang-format on
-
 void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                   std::span<double> max_dot) {
-  switch (dimension) {
-#define NDHULL_CASE(D) \
-  case D: return max_dots_of<D>(dimension, normals, points, max_dot);
-    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
-#undef NDHULL_CASE
-    default: return max_dots_of<0>(dimension, normals, points, max_dot);
-  }
+  if (dimension > kMaxRank) return max_dots_of<0>(dimension, normals, points, max_dot);
+  call_with_dimension<1, kMaxRank>(dimension,
+                                   [&](auto d) { max_dots_of<d>(dimension, normals, points, max_dot); });
 }
 
 void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
                   std::span<const double> points, std::span<const std::uint32_t> row_of_point,
                   std::span<double> low, std::span<double> high) {
-  switch (dimension) {
-#define NDHULL_CASE(D) \
-  case D: return own_dots_of<D>(complex, dimension, normals, points, row_of_point, low, high);
-    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
-#undef NDHULL_CASE
-    default: return own_dots_of<0>(complex, dimension, normals, points, row_of_point, low, high);
-  }
+  if (dimension > kMaxRank)
+    return own_dots_of<0>(complex, dimension, normals, points, row_of_point, low, high);
+  call_with_dimension<1, kMaxRank>(dimension, [&](auto d) {
+    own_dots_of<d>(complex, dimension, normals, points, row_of_point, low, high);
+  });
 }
 
 void mark_flat_any(const SimplicialComplex& complex, const double* points, double tolerance,
                    std::span<std::uint8_t> is_flat) {
-  switch (complex.rank) {
-#define NDHULL_CASE(D) \
-  case D: return mark_flat_of<D>(complex, points, tolerance, is_flat);
-    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
-#undef NDHULL_CASE
-    default: NDHULL_CHECK(!"rank is checked before growth starts");
-  }
+  call_with_dimension<2, kMaxRank>(complex.rank,
+                                   [&](auto d) { mark_flat_of<d>(complex, points, tolerance, is_flat); });
 }
 
 void solve_simplices_any(SimplicialComplex& complex, const double* points, bool replace_planes,
                          std::span<double> determinants) {
-  switch (complex.rank) {
-#define NDHULL_CASE(D) \
-  case D: return solve_simplices_of<D>(complex, points, replace_planes, determinants);
-    NDHULL_FOR_EACH_DIMENSION(NDHULL_CASE)
-#undef NDHULL_CASE
-    default: NDHULL_CHECK(!"rank is checked before growth starts");
-  }
+  call_with_dimension<2, kMaxRank>(
+      complex.rank, [&](auto d) { solve_simplices_of<d>(complex, points, replace_planes, determinants); });
 }
 
 }  // namespace HWY_NAMESPACE
