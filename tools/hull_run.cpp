@@ -138,8 +138,7 @@ int run_hull(const HullRequest& request) {
   context.read_seconds = seconds_since(start);
 
   interrupt.arm();
-  Hull hull;
-  arena.execute([&] { hull = convex_hull(points.view(), context.options); });
+  const Hull hull = convex_hull(points.view(), context.options);
 
   std::optional<Verification> verification;
   if (request.verify.has_value()) {
