@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "core/error.h"
-#include "tools/byte_count.h"
 #include "tools/command_options.h"
+#include "tools/hull_options.h"
 #include "tools/qhull_formats.h"
 
 namespace ndhull {
@@ -13,36 +13,10 @@ namespace {
 /// The options as they are written; `request` has the others.
 struct Arguments {
   HullRequest request;
-  std::string max_memory, plane_kind, format, verify;
+  HullOptionSet hull;
+  std::string plane_kind, format, verify;
   bool has_format = false;
 };
-
-void add_hull_options(CLI::App& command, Arguments& arguments) {
-  HullOptions& options = arguments.request.options;
-  command.add_option("--max-facets", options.limits.max_facets, "limit: simplices of the growing hull")
-      ->type_name("N")
-      ->check(whole_number(1));
-  command.add_option("--max-seconds", options.limits.max_seconds, "limit: seconds of growth")
-      ->type_name("S")
-      ->check(positive_number());
-  command
-      .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
-      ->type_name("B");
-  command.add_flag("--unit-cube", options.unit_cube,
-                   "measure offsets, widths and roundoff after scaling the input to the unit cube");
-  command.add_flag("--triangulate", options.triangulate,
-                   "leave facets simplices: no coplanar ones are merged");
-  command
-      .add_option("--threads", options.threads,
-                  "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
-  command
-      .add_option("--seed", options.seed,
-                  "of the shifts below roundoff that settle degenerate cases; default 1")
-      ->type_name("S")
-      ->check(whole_number(0));
-}
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
   HullRequest& request = arguments.request;
@@ -85,9 +59,7 @@ PlaneKind plane_kind_of(const std::string& name) {
 /// Reads what CLI11 left as text.
 HullRequest complete_request(const CLI::App& command, const Arguments& arguments) {
   HullRequest request = arguments.request;
-  if (!arguments.max_memory.empty()) {
-    request.options.limits.max_memory_bytes = parse_byte_count(arguments.max_memory, "--max-memory");
-  }
+  request.options = arguments.hull.complete();
   request.plane_kind = plane_kind_of(arguments.plane_kind);
   request.formats = split_qhull_formats(arguments.format);
   if (command.count("--format") > 0 && request.formats.empty()) {
@@ -109,7 +81,7 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       ->type_name("")
       ->check(path_name())
       ->required();
-  add_hull_options(*command, *arguments);
+  arguments->hull.add_to(*command);
   add_output_options(*command, *arguments);
   command->footer(
       "POINTS: .npy, .csv, .tsv, .ext (cdd, lrs), Qhull text or columns. FILE may be - for standard output.\n"

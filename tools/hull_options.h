@@ -1,0 +1,25 @@
+// The options that say which hull is wanted, for every command that computes one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "approx/hull.h"
+
+namespace ndhull {
+
+/// HullOptions as they are written on the command line: some are text until all is parsed.
+class HullOptionSet {
+ public:
+  /// Adds --max-facets, --max-seconds, --max-memory, --unit-cube, --triangulate, --threads and --seed. The
+  /// set must live until the command line is parsed.
+  void add_to(CLI::App& command);
+  /// What they ask for. Throws Error kUsage, with the option, for text that means nothing.
+  HullOptions complete() const;
+
+ private:
+  HullOptions options_;
+  std::string max_memory_;
+};
+
+}  // namespace ndhull
