@@ -1,0 +1,47 @@
+#include "approx/plane_polytope.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace ndhull {
+
+PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const HullOptions& options) {
+  const std::size_t rank = planes.rank, count = planes.heights.size();
+  PlanePolytope polytope;
+  if (count <= rank) {
+    polytope.bounded = false;
+    return polytope;
+  }
+  std::vector<double> dual(planes.normals.size());
+  for (std::size_t row = 0; row < count; ++row) {
+    for (std::size_t k = 0; k < rank; ++k)
+      dual[row * rank + k] = planes.normals[row * rank + k] / planes.heights[row];
+  }
+  const Hull hull = convex_hull(PointView::row_major(dual.data(), count, rank), options);
+  polytope.status = hull.status;
+  polytope.bounded = hull.rank == rank;
+  if (!polytope.bounded) return polytope;
+  polytope.vertices.resize(hull.facet_count() * rank);
+  for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
+    const FacetId facet{id};
+    const double offset = hull.offset(facet);
+    if (!(offset < 0.0)) {
+      polytope = PlanePolytope();
+      polytope.bounded = false;  // the hull of the dual points does not contain the origin
+      return polytope;
+    }
+    const auto normal = hull.normal(facet);
+    for (std::size_t k = 0; k < rank; ++k) polytope.vertices[id * rank + k] = normal[k] / -offset;
+  }
+  polytope.planes.reserve(hull.simplices.row_count * rank);
+  for (std::uint32_t row = 0; row < hull.simplices.row_count; ++row) {
+    const auto vertices = hull.simplices.vertices(SimplexId{row});
+    for (const PointId id : vertices) polytope.planes.push_back(id.value);
+    polytope.vertex_of.push_back(hull.facet_of(SimplexId{row}).value);
+  }
+  for (const PointId id : hull.vertices) polytope.non_redundant.push_back(id.value);
+  return polytope;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,90 @@
+// Volumes below outer planes: closed forms, and never less than the hull.
+#include "approx/outer_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/hull/hull_support.h"
+#include "tests/support/degeneracies.h"
+
+namespace ndhull {
+namespace {
+
+constexpr std::uint64_t kMany = 1'000'000;
+
+TEST(OuterVolumeExample, OfUnitCubesIsOne) {
+  for (std::size_t d = 1; d <= 8; ++d) {
+    PointSet corners = cube(d).points;
+    for (double& value : corners.coordinates) value = 0.5 + 0.5 * value;
+    const OuterVolume outer = outer_volume(hull_of(corners), {}, kMany);
+    ASSERT_TRUE(outer.volume) << "d " << d << ": " << outer.reason;
+    EXPECT_NEAR(*outer.volume, 1.0, 1e-11) << "d " << d;
+  }
+}
+
+// Outer planes of an exact hull are its facets moved by roundoff: vertices in which many facets meet become
+// many vertices close together, faces between them almost nothing.
+TEST(OuterVolumeLaw, OfExactHullsIsTheirVolume) {
+  for (const NamedPolytope& known : small_named_polytopes()) {
+    if (known.facets > 3000 || known.rank > 10) continue;
+    SCOPED_TRACE(known.name);
+    const Hull hull = hull_of(known.points);
+    const OuterVolume outer = outer_volume(hull, {}, kMany);
+    ASSERT_TRUE(outer.volume) << outer.reason;
+    EXPECT_GE(*outer.volume, hull.volume * (1.0 - 1e-12));
+    EXPECT_NEAR(*outer.volume, hull.volume, 1e-11 * hull.volume);
+  }
+}
+
+TEST(OuterVolumeLaw, HoldsOnHardInput) {
+  for (std::size_t d = 2; d <= 5; ++d) {
+    for (const DegenerateCase& hard : degenerate_cases(40, d, 17)) {
+      SCOPED_TRACE(hard.description + ", d " + std::to_string(d));
+      const Hull hull = hull_of(hard.points);
+      const OuterVolume outer = outer_volume(hull, {}, kMany);
+      ASSERT_TRUE(outer.volume) << outer.reason;
+      EXPECT_GE(*outer.volume, hull.volume * (1.0 - 1e-12));
+      EXPECT_NEAR(*outer.volume, hull.volume, 1e-11 * hull.volume);
+    }
+  }
+}
+
+TEST(OuterVolumeExample, OfSomeSidesOfARotatedCube) {
+  // Without the two sides of an axis the prism is open; with one plane across it is bounded again.
+  const Hull hull = hull_of(rotated(cube(4).points, 3));
+  std::vector<FacetId> sides;
+  for (std::uint32_t id = 0; id < 7; ++id) sides.push_back(FacetId{id});
+  const OuterVolume open = outer_volume(hull, sides, kMany);
+  EXPECT_FALSE(open.volume);
+  EXPECT_EQ(open.reason, "the outer planes do not bound a region");
+  sides.push_back(FacetId{7});
+  EXPECT_NEAR(outer_volume(hull, sides, kMany).volume.value(), 16.0, 1e-10);
+}
+
+TEST(OuterVolumeExample, FewerPlanesEncloseMore) {
+  const PointSet points = family_points(PointFamily::kSphere, 80, 4, 2);
+  const Hull hull = hull_of(points);
+  std::vector<FacetId> planes;
+  double last = 0.0;
+  for (const std::size_t step : {1U, 2U, 4U, 8U}) {
+    planes.clear();
+    for (std::uint32_t id = 0; id < hull.facet_count(); id += static_cast<std::uint32_t>(step))
+      planes.push_back(FacetId{id});
+    const OuterVolume outer = outer_volume(hull, planes, kMany);
+    ASSERT_TRUE(outer.volume) << outer.reason;
+    EXPECT_GT(*outer.volume, last);
+    last = *outer.volume;
+  }
+  EXPECT_GT(last, 1.05 * hull.volume);
+}
+
+TEST(OuterVolumeExample, TooManyVerticesAreAReason) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  const OuterVolume outer = outer_volume(hull, {}, 100);
+  EXPECT_FALSE(outer.volume);
+  EXPECT_NE(outer.reason.find("more than about 100 vertices"), std::string::npos) << outer.reason;
+}
+
+}  // namespace
+}  // namespace ndhull
