@@ -32,27 +32,33 @@ std::string_view to_string(PlaneKind kind) {
   return "unknown";
 }
 
+std::vector<double> largest_coordinates(const PointView& points) {
+  std::vector<double> largest(points.dimension, 0.0);
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      largest[k] = std::max(largest[k], std::abs(points.at(row, k)));
+    }
+  }
+  return largest;
+}
+
 WrittenPlanes::WrittenPlanes(const Hull& hull, const PointView& points, PlaneKind kind)
     : hull_(hull), kind_(kind), largest_(points.dimension, 0.0) {
   if (kind == PlaneKind::kMean) return;
-  for (std::size_t row = 0; row < points.rows; ++row) {
-    for (std::size_t k = 0; k < points.dimension; ++k) {
-      largest_[k] = std::max(largest_[k], std::abs(points.at(row, k)));
-    }
-  }
+  largest_ = largest_coordinates(points);
 }
 
-/// `claimed`: input units. direction +1 keeps points below the plane, -1 above it.
-double WrittenPlanes::certified_offset(FacetId facet, double claimed, double direction) const {
-  const std::span<const double> normal = hull_.normal(facet);
+double written_offset(const CentredPlane& plane, std::span<const double> largest, double direction) {
+  const std::span<const double> normal = plane.normal;
   const std::size_t dimension = normal.size();
-  double offset = hull_.centred_offset(facet);
+  const double claimed = plane.claimed * plane.unit;
+  double offset = plane.offset;
   double size = std::abs(offset), evaluated_size = 0.0;
   for (std::size_t k = 0; k < dimension; ++k) {
-    const double product = normal[k] * hull_.reference[k];
+    const double product = normal[k] * plane.reference[k];
     offset -= product;
     size += std::abs(product);
-    evaluated_size += std::abs(normal[k]) * largest_[k];
+    evaluated_size += std::abs(normal[k]) * largest[k];
   }
   offset -= claimed;
   size += std::abs(claimed);
@@ -70,11 +76,18 @@ void WrittenPlanes::fill(FacetId facet, std::span<double> row) const {
   const std::span<const double> normal = hull_.normal(facet);
   std::copy(normal.begin(), normal.end(), row.begin());
   double& offset = row[normal.size()];
-  const double scale = hull_.input_per_length_unit(facet);
+  CentredPlane plane{normal, hull_.reference, hull_.centred_offset(facet), 0.0,
+                     hull_.input_per_length_unit(facet)};
   switch (kind_) {
-    case PlaneKind::kOuter: offset = certified_offset(facet, hull_.outer_offset(facet) * scale, 1.0); break;
+    case PlaneKind::kOuter:
+      plane.claimed = hull_.outer_offset(facet);
+      offset = written_offset(plane, largest_, 1.0);
+      break;
     case PlaneKind::kMean: offset = hull_.offset(facet); break;
-    case PlaneKind::kInner: offset = certified_offset(facet, hull_.inner_offset(facet) * scale, -1.0); break;
+    case PlaneKind::kInner:
+      plane.claimed = hull_.inner_offset(facet);
+      offset = written_offset(plane, largest_, -1.0);
+      break;
   }
   if (!std::isfinite(offset)) {
     throw Error(ErrorCode::kNotFinite, "plane of facet " + std::to_string(facet.value) +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "approx/hull.h"
+#include "core/plane_value.h"
 #include "core/points.h"
 
 namespace ndhull {
@@ -17,6 +18,14 @@ enum class PlaneKind {
   kInner,  ///< every vertex of the facet is above or on it
 };
 std::string_view to_string(PlaneKind kind);
+
+/// The offset b of a row that stands for a claim: n . x + b <= 0 for every x that is not above the parallel
+/// plane at `plane.claimed` and has |x_k| <= largest[k], in exact arithmetic and as doubles evaluate it in
+/// any order; with direction -1, n . x + b >= 0 for every such x that is not below that plane.
+double written_offset(const CentredPlane& plane, std::span<const double> largest, double direction);
+
+/// Per column the largest |coordinate|. Cost: reads all points once.
+std::vector<double> largest_coordinates(const PointView& points);
 
 /// Gives the planes of a hull one by one, in input units, for files and other programs.
 ///
@@ -36,8 +45,6 @@ class WrittenPlanes {
   void fill(FacetId facet, std::span<double> row) const;
 
  private:
-  double certified_offset(FacetId facet, double claimed, double direction) const;
-
   const Hull& hull_;
   PlaneKind kind_;
   std::vector<double> largest_;  // per column: largest |coordinate| of the input

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "tools/portable_random.h"
+#include "core/portable_random.h"
 
 namespace ndhull {
 namespace {

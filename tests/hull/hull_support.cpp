@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "core/complex_check.h"
-#include "tools/portable_random.h"
+#include "core/portable_random.h"
 
 namespace ndhull {
 namespace {

@@ -1,9 +1,9 @@
 // The same facets as programs that decide in exact arithmetic, and as Qhull where data are generic.
 #include "tests/hull/exact_oracle.h"
 
+#include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/portable_random.h"
 #include "tools/rbox.h"
 
 namespace ndhull {

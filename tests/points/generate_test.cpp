@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tools/portable_random.h"
+#include "core/portable_random.h"
 
 namespace ndhull {
 namespace {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/portable_random.h"
 #include "tools/generate.h"
-#include "tools/portable_random.h"
 
 namespace ndhull {
 namespace {

@@ -1,7 +1,7 @@
 // Series after exact range reduction: the logarithm by the inverse hyperbolic tangent, sine and cosine by
 // Taylor's series on an eighth of a turn.
 
-#include "tools/portable_random.h"
+#include "core/portable_random.h"
 
 #include <cmath>
 #include <limits>

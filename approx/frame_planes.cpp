@@ -1,0 +1,65 @@
+#include "approx/frame_planes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ndhull {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using ConstRows = Eigen::Map<const RowMatrix>;
+
+ConstRows rows_of(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+  return {values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns)};
+}
+
+}  // namespace
+
+double volume_scale(const Frame& frame) {
+  const ConstRows map = rows_of(frame.map, frame.rank, frame.dimension);
+  if (frame.rank == frame.dimension) return std::abs(RowMatrix(map).determinant());
+  const ConstRows basis = rows_of(frame.basis, frame.rank, frame.dimension);
+  const double spanned = RowMatrix(basis * basis.transpose()).determinant();
+  return std::abs(RowMatrix(map * basis.transpose()).determinant()) / std::sqrt(spanned);
+}
+
+void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out, double* lengths) {
+  const std::size_t rank = frame.rank, dimension = frame.dimension;
+  RowMatrix to_input = rows_of(frame.map, rank, dimension);
+  if (rank < dimension) {  // keep the part of the normal that lies in the subspace
+    const ConstRows basis = rows_of(frame.basis, rank, dimension);
+    const RowMatrix gram = basis * basis.transpose();
+    to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
+  }
+  constexpr std::size_t kBlock = 256;
+  RowMatrix block;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t used = std::min(kBlock, count - begin);
+    const Eigen::Map<const RowMatrix> in(planes + begin * rank, static_cast<Eigen::Index>(used),
+                                         static_cast<Eigen::Index>(rank));
+    if (frame.is_diagonal && rank == dimension) {
+      block = in * to_input.diagonal().asDiagonal();
+    } else {
+      block.noalias() = in * to_input;
+    }
+    for (std::size_t row = 0; row < used; ++row) {
+      const auto at = static_cast<Eigen::Index>(row);
+      // Scaled first: columns of very different scale can overflow the squares.
+      const double largest = block.row(at).lpNorm<Eigen::Infinity>();
+      block.row(at) /= largest;
+      const double length = block.row(at).norm();
+      block.row(at) /= length;
+      if (lengths != nullptr) lengths[begin + row] = largest * length;
+      std::copy_n(block.row(at).data(), dimension, out + (begin + row) * dimension);
+    }
+  }
+}
+
+double sum_error(std::size_t terms, double size) {
+  const double rounding = static_cast<double>(terms) * 0x1p-53;
+  return rounding / (1.0 - rounding) * size;
+}
+
+}  // namespace ndhull
