@@ -15,6 +15,7 @@
 #include "tools/hull_command.h"
 #include "tools/point_set_commands.h"
 #include "tools/verify_command.h"
+#include "tools/view_command.h"
 
 namespace {
 
@@ -68,6 +69,7 @@ int run(const std::vector<std::string>& arguments) {
   ndhull::add_generate_command(app);
   ndhull::add_rbox_command(app);
   ndhull::add_verify_command(app, exit_code);
+  ndhull::add_view_command(app, exit_code);
   try {
     check_command(app, arguments);
     std::vector<std::string> words = ndhull::join_verify_mode(arguments);
