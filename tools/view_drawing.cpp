@@ -168,14 +168,18 @@ class SolidDrawing {
     const double sign = out.x * (from.x - centre.x) + out.y * (from.y - centre.y) < 0.0 ? -1.0 : 1.0;
     out = {sign * out.x / length, sign * out.y / length};
     const char* const anchor = out.x < -0.3 ? "end" : out.x > 0.3 ? "start" : "middle";
+    std::size_t longest = 0;
     for (const Tick& tick : scene_.axes[axis].ticks) {
+      longest = std::max(longest, tick.label.size());
       const PagePoint at = page_.at(in_box(scene_, axis, tick.value, *best));
       // Numbers at the foot of the upright scale make room for those of the scale that starts there.
       const double down = axis == 2 ? 1.0 : 7.0;
       text_ += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
                            at.x + 9.0 * out.x, at.y + 9.0 * out.y + down, anchor, escaped(tick.label));
     }
-    const PagePoint name{0.5 * (from.x + to.x) + 42.0 * out.x, 0.5 * (from.y + to.y) + 36.0 * out.y + 5.0};
+    // [px] The name stands beyond the longest number; a digit is some 6.6 wide.
+    const double beside = std::max(42.0, 18.0 + 6.6 * static_cast<double>(longest));
+    const PagePoint name{0.5 * (from.x + to.x) + beside * out.x, 0.5 * (from.y + to.y) + 36.0 * out.y + 5.0};
     text_ += fmt::format("<text class=\"axis\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
                          name.x, name.y, anchor, escaped(scene_.axes[axis].name));
   }
@@ -209,7 +213,7 @@ class SolidDrawing {
 
   void draw_outlines() {
     for (const SceneOutline& outline : scene_.outlines) {
-      for (const auto& [from, to] : outline.edges) text_ += line(page_, from, to, "class=\"mark\"");
+      for (const auto& [from, to] : outline.edges) text_ += line(page_, from, to, "class=\"mark outline\"");
     }
   }
 
@@ -237,7 +241,7 @@ class FlatDrawing {
     }
     for (const SceneFace& face : solid.faces) draw_mark(solid, face);
     for (const SceneOutline& outline : scene_.outlines) {
-      for (const auto& [from, to] : outline.edges) text_ += line(page_, from, to, "class=\"mark\"");
+      for (const auto& [from, to] : outline.edges) text_ += line(page_, from, to, "class=\"mark outline\"");
     }
     return text_;
   }

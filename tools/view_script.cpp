@@ -104,7 +104,8 @@ const std::string_view kViewScript = R"js(
     }
     pen.fillStyle = "#333";
     pen.font = "600 14px sans-serif";
-    pen.fillText(scene.axes[axis].name, (from[0] + to[0]) / 2 + 42 * out[0], (from[1] + to[1]) / 2 + 36 * out[1] + 5);
+    const beside = Math.max(42, 18 + 6.6 * Math.max(0, ...scene.axes[axis].ticks.map(tick => tick.label.length)));
+    pen.fillText(scene.axes[axis].name, (from[0] + to[0]) / 2 + beside * out[0], (from[1] + to[1]) / 2 + 36 * out[1] + 5);
   }
 
   function drawGlass(facing) {
@@ -141,6 +142,7 @@ const std::string_view kViewScript = R"js(
     pen.lineWidth = 2;
     const marked = drawn.filter(entry => entry.face.mark > 0);
     for (const {points} of marked) { trace(points); pen.closePath(); pen.stroke(); }
+    pen.lineWidth = 1.2;
     for (const [from, to] of scene.outlines) line(from, to);
     pen.font = "700 12px sans-serif";
     pen.textAlign = "center";

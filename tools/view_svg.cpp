@@ -15,7 +15,7 @@ constexpr double kWidth = 960.0;
 constexpr double kHeight = 640.0;
 constexpr double kLegendLeft = 722.0;
 constexpr double kLegendWidth = 232.0;
-constexpr PageArea kDrawing{10.0, 66.0, 700.0, 566.0};
+constexpr PageArea kDrawing{22.0, 66.0, 690.0, 566.0};
 
 constexpr const char* kStyle = R"(<style>
 text { font-family: "DejaVu Sans", "Helvetica Neue", Arial, sans-serif; fill: #333 }
@@ -31,6 +31,7 @@ text { font-family: "DejaVu Sans", "Helvetica Neue", Arial, sans-serif; fill: #3
 .region { fill: #f4f1ea }
 .side { stroke-width: 4; stroke-linecap: round }
 .mark { fill: none; stroke: MARK; stroke-width: 2; stroke-linejoin: round; stroke-linecap: round }
+.outline { stroke-width: 1.2; stroke-opacity: .8 }
 .number { font-size: 12px; font-weight: 700; fill: MARK; stroke: #fff; stroke-width: 3; paint-order: stroke; text-anchor: middle }
 </style>
 )";
