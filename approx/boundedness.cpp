@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "approx/even_normals.h"
 #include "approx/subspace.h"
 #include "core/column_table.h"
 #include "core/error.h"
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// [ratio] Evenly spread unit normals that reach less far than this in a direction leave it open. Far above
 /// the rounding of the map, far below any region one would want to look at.
@@ -31,46 +31,6 @@ RowMatrix unit_rows(std::span<const double> normals, std::size_t dimension, cons
   RowMatrix rows = given * directions;
   rows.rowwise().normalize();
   return rows;
-}
-
-/// Normals n' = n map, of length 1, spread over the space; or a direction that all are orthogonal to.
-struct EvenNormals {
-  RowMatrix rows;
-  MatrixXd map;  // rank x rank: a direction w of the even normals is map w among the others
-  std::optional<VectorXd> orthogonal;
-};
-
-EvenNormals spread(const RowMatrix& rows) {
-  EvenNormals even;
-  const Index rank = rows.cols();
-  if (rows.rows() == 0) {
-    even.orthogonal = VectorXd::Unit(rank, 0);
-    return even;
-  }
-  // Scaling each column first keeps the digits of small ones: a flat lens has normals (1e-13, .., 1).
-  const VectorXd lengths = rows.colwise().norm().transpose();
-  for (Index k = 0; k < rank; ++k) {
-    if (lengths[k] > 0.0) continue;
-    even.orthogonal = VectorXd::Unit(rank, k);
-    return even;
-  }
-  const MatrixXd scaled = rows * lengths.cwiseInverse().asDiagonal();
-  Eigen::ColPivHouseholderQR<MatrixXd> factors(scaled);
-  factors.setThreshold(1e-14 * static_cast<double>(rank));
-  const MatrixXd permutation = factors.colsPermutation();
-  const Index found = factors.rank();
-  MatrixXd upper = MatrixXd::Identity(rank, rank);
-  upper.topRows(std::min(found, rows.rows())) =
-      factors.matrixR().topRows(std::min(found, rows.rows())).triangularView<Eigen::Upper>();
-  const MatrixXd inverse = upper.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(rank, rank));
-  even.map = lengths.cwiseInverse().asDiagonal() * permutation * inverse;
-  if (found < rank) {
-    even.orthogonal = even.map.col(rank - 1).normalized();
-    return even;
-  }
-  even.rows = rows * even.map;
-  even.rows.rowwise().normalize();
-  return even;
 }
 
 ColumnTable table_of(const RowMatrix& rows, double cost) {
@@ -105,7 +65,7 @@ std::optional<VectorXd> open_among(const RowMatrix& rows) {
 }
 
 std::optional<VectorXd> open_direction(const RowMatrix& rows) {
-  const EvenNormals even = spread(rows);
+  const EvenNormals even = spread_evenly(rows);
   if (even.orthogonal) return even.orthogonal;
   std::optional<VectorXd> direction = open_among(even.rows);
   if (direction) direction = (even.map * *direction).normalized();
@@ -215,7 +175,7 @@ std::vector<std::uint32_t> complete_to_bounded(std::span<const double> normals, 
                                                std::span<const double> equations) {
   const MatrixXd directions = subspace_directions(dimension, equations);
   if (directions.cols() == 0) return {};
-  const EvenNormals even = spread(unit_rows(normals, dimension, directions));
+  const EvenNormals even = spread_evenly(unit_rows(normals, dimension, directions));
   if (!even.orthogonal) {
     Completion completion(even.rows, selected);
     if (completion.is_bounded({})) return {};

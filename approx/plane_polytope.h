@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "approx/hull.h"
+#include "core/id_rows.h"
 
 namespace ndhull {
 
@@ -29,6 +30,8 @@ struct PlanePolytope {
   std::vector<double> vertices;              ///< rows x rank
   std::vector<std::uint32_t> planes;         ///< simplices x rank: the planes of each simplex
   std::vector<std::uint32_t> vertex_of;      ///< of each simplex
+  IdRows planes_of;                          ///< of each vertex, in no order
+  IdRows neighbours_of;                      ///< of each vertex: those its simplices share a ridge with
   std::vector<std::uint32_t> non_redundant;  ///< planes without which the polytope would be larger, ascending
 
   std::size_t vertex_count(std::size_t rank) const { return vertices.size() / rank; }

@@ -7,60 +7,12 @@
 
 #include "tools/command_options.h"
 #include "tools/file_bytes.h"
-#include "tools/npy_header.h"
 #include "tools/output_file.h"
+#include "tools/point_writer.h"
 #include "tools/rbox.h"
 
 namespace ndhull {
 namespace {
-
-/// What stands in front of the points of a file.
-struct PointFileHead {
-  std::size_t rows;
-  std::size_t dimension;
-  ScalarType scalar;
-  std::string comment;
-};
-
-/// Writes points in the format that the path's extension names.
-class PointWriter {
- public:
-  PointWriter(const std::string& path, const PointFileHead& head) : file_(path) {
-    const std::string extension = extension_of(path);
-    if (extension == "npy") {
-      is_npy_ = true;
-      const bool is_float = head.scalar == ScalarType::kFloat32;
-      file_.write(make_npy_header(is_float ? "<f4" : "<f8", {head.rows, head.dimension}));
-    } else if (extension == "csv" || extension == "tsv") {
-      separator_ = extension == "csv" ? ',' : '\t';
-    } else {
-      file_.print("{} {}\n{}\n", head.dimension, head.comment, head.rows);
-    }
-  }
-
-  /// `block`: contiguous rows.
-  void write(const PointView& block) {
-    if (is_npy_) {
-      const std::size_t size = block.type == ScalarType::kFloat32 ? sizeof(float) : sizeof(double);
-      file_.write({static_cast<const char*>(block.data), block.rows * block.dimension * size});
-      return;
-    }
-    for (std::size_t row = 0; row < block.rows; ++row) {
-      for (std::size_t k = 0; k < block.dimension; ++k) {
-        if (k > 0) file_.write({&separator_, 1});
-        file_.print("{}", block.at(row, k));
-      }
-      file_.write("\n");
-    }
-  }
-
-  void commit() { file_.commit(); }
-
- private:
-  OutputFile file_;
-  bool is_npy_ = false;
-  char separator_ = ' ';
-};
 
 // What the readers and the engine can number: more is a slip of the finger that would fill a disk.
 constexpr std::uint64_t kMostRows = std::uint64_t{1} << 40;

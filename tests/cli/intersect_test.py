@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""ndhull intersect: statuses, formats, files, refusals, pipes; vertex counts of lrs where it is installed."""
+
+import itertools
+import json
+import math
+import shutil
+import subprocess
+
+import numpy
+
+from program import fresh_folder, one_error_line, rbox, run, run_tests
+
+FOLDER = fresh_folder("intersect")
+LRS = shutil.which("lrs")
+
+
+def qhull_text(rows):
+    rows = numpy.asarray(rows, float)
+    lines = [str(rows.shape[1]), str(len(rows))] + [" ".join(map(repr, map(float, row))) for row in rows]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def cube(d):
+    rows = []
+    for k in range(d):
+        for sign in (1, -1):
+            rows.append([sign * (j == k) for j in range(d)] + [-1])
+    return rows
+
+
+def cross_polytope(d):
+    return [list(signs) + [-1] for signs in itertools.product((1, -1), repeat=d)]
+
+
+def birkhoff(n):
+    """x_ij >= 0, rows and columns sum to 1, each equation as two halfspaces."""
+    rows = []
+    for i, j in itertools.product(range(n), repeat=2):
+        rows.append([-(k == i * n + j) for k in range(n * n)] + [0])
+    for i in range(n):
+        for line in ([k // n == i for k in range(n * n)], [k % n == i for k in range(n * n)]):
+            for sign in (1, -1):
+                rows.append([sign * value for value in line] + [-sign])
+    return rows
+
+
+def report_of(rows, *arguments):
+    return json.loads(run("intersect", "-", "--report", "-", *arguments, stdin=qhull_text(rows)).stdout)
+
+
+def lrs_vertices(rows):
+    """Rows of lrs's V-representation that are vertices."""
+    ine = FOLDER / "polytope.ine"
+    with open(ine, "w") as file:
+        print(f"H-representation\nbegin\n{len(rows)} {len(rows[0])} integer", file=file)
+        for row in rows:
+            print(-row[-1], *(-value for value in row[:-1]), file=file)
+        print("end", file=file)
+    out = subprocess.run([LRS, ine], capture_output=True, text=True, timeout=120, check=True).stdout
+    return sum(line.split()[:1] == ["1"] for line in out.split("begin")[1].split("end")[0].splitlines())
+
+
+def test_vertex_counts():
+    for name, rows, vertices, rank in [
+        ("cube 5", cube(5), 32, 5),
+        ("cube 9", cube(9), 512, 9),
+        ("cross-polytope 4", cross_polytope(4), 8, 4),
+        ("cross-polytope 9", cross_polytope(9), 18, 9),
+        ("birkhoff 3", birkhoff(3), 6, 4),
+        ("birkhoff 4", birkhoff(4), 24, 9),
+    ]:
+        report = report_of(rows)
+        assert report["vertices"] == vertices, (name, report["vertices"])
+        assert report["rank"] == rank, (name, report["rank"])
+        flat = rank < len(rows[0]) - 1
+        assert report["status"] == ("lower-dimensional" if flat else "bounded"), name
+        assert len(report["equations"]) == len(rows[0]) - 1 - rank, name
+        # lrs visits every basis: too many where 256 planes meet in a vertex.
+        if LRS and name != "cross-polytope 9":
+            assert lrs_vertices(rows) == vertices, name
+    print("lrs agrees" if LRS else "lrs is not installed")
+
+
+def test_report_of_a_cube():
+    report = report_of(cube(3), "--vertex-list")
+    assert math.isclose(report["volume"], 8, rel_tol=1e-12) and math.isclose(report["area"], 24, rel_tol=1e-12)
+    assert math.isclose(report["inner_radius"], 1, rel_tol=1e-12)
+    assert report["non_redundant"] == list(range(6)) and report["equalities"] == []
+    assert len(report["vertex_list"]) == 8
+    for vertex in report["vertex_list"]:
+        assert len(vertex["halfspaces"]) == 3 and len(vertex["neighbors"]) == 3
+        assert numpy.allclose(numpy.abs(vertex["point"]), 1, rtol=1e-14)
+
+
+def test_statuses():
+    unbounded = report_of([[1, 0, -1], [-1, 0, -1]])
+    assert unbounded["status"] == "unbounded" and numpy.allclose(numpy.abs(unbounded["direction"]), [0, 1])
+    assert unbounded["direction_margin"] <= 1e-15 and "vertices" not in unbounded
+    rows = numpy.array([[1, 0, 1], [-1, 0, 1], [0, 1, 0]], float)
+    empty = report_of(rows)
+    assert empty["status"] == "empty"
+    total = sum(term["weight"] * rows[term["halfspace"]] for term in empty["proof"]["combination"])
+    assert numpy.allclose(total[:2], 0) and total[2] > 0.9
+    half = report_of([[0, 3, -3]])
+    assert half["status"] == "unbounded" and half["inner_radius"] is None
+
+
+def test_formats_agree_with_each_other_and_qhalf():
+    points = rbox("30 s D4 t1", FOLDER / "points.npy")
+    run("hull", FOLDER / "points.npy", "--planes", FOLDER / "planes.txt")
+    text = run("intersect", FOLDER / "planes.txt", "--format", "Fp Fv Fx Fn FN").stdout.split("\n")
+    assert text[0] == "4" and int(text[1]) == 30
+    vertices = numpy.array([list(map(float, line.split())) for line in text[2:32]])
+    order = [numpy.argmin(numpy.linalg.norm(vertices - point, axis=1)) for point in points]
+    assert sorted(order) == list(range(30)) and numpy.allclose(vertices[order], points, atol=1e-12)
+    assert text[32] == "30"
+    facets = [set(map(int, line.split()[1:])) for line in text[33:63]]
+    planes = numpy.loadtxt(FOLDER / "planes.txt", skiprows=2)
+    for vertex, ids in zip(vertices, facets):
+        assert set(numpy.nonzero(planes[:, :4] @ vertex + planes[:, 4] > -1e-9)[0]) == ids
+    assert int(text[63]) == len(planes)
+    assert "ndhull: usage" in run("intersect", FOLDER / "planes.txt", "--format", "Fq", exit_code=1).stderr
+    qhalf = shutil.which("qhalf")
+    if qhalf:
+        simple = qhull_text(cube(4))
+        found = run("intersect", "-", "--format", "Fp,Fx", stdin=simple).stdout.split("\n")
+        point = b"4 1\n0.1 0.2 0.1 0\n"
+        other = subprocess.run([qhalf, "Fp", "Fx"], input=point + simple, capture_output=True, check=True)
+        other = other.stdout.decode().split("\n")
+        rows = lambda lines: sorted(tuple(round(float(value), 12) + 0.0 for value in line.split()) for line in lines)
+        assert found[:2] == other[:2] and rows(found[2:18]) == rows(other[2:18])
+        assert rows(found[18:]) == rows(other[18:])
+
+
+def test_interior_points():
+    rows = qhull_text(cube(2))
+    inside = run("intersect", "-", "--interior-point", "0.5, -0.5", "--report", "-", stdin=rows).stdout
+    assert json.loads(inside)["interior_point"] == [0.5, -0.5]
+    in_front = json.loads(run("intersect", "-", "--report", "-", stdin=b"2 1\n0.25 0.25\n" + rows).stdout)
+    assert in_front["interior_point"] == [0.25, 0.25]
+    done = run("intersect", "-", "--interior-point", "0 1.5", exit_code=1, stdin=rows)
+    one_error_line(done, "bad-halfspace")
+    assert "halfspace 3: found the interior point 0.5 above" in done.stderr
+    one_error_line(run("intersect", "-", "--interior-point", "0 x", exit_code=1, stdin=rows), "usage")
+    one_error_line(run("intersect", "-", "--interior-point", "0", exit_code=1, stdin=rows), "usage")
+
+
+def test_vertices_that_do_not_exist_are_an_error():
+    target = FOLDER / "none.npy"
+    done = run("intersect", "-", "--vertices", target, exit_code=1, stdin=qhull_text([[1, 0, -1], [-1, 0, -1]]))
+    one_error_line(done, "bad-halfspace")
+    assert "unbounded along" in done.stderr and not target.exists()
+    done = run("intersect", "-", "--format", "Fp", exit_code=1, stdin=qhull_text([[1, 0, 1], [-1, 0, 1]]))
+    one_error_line(done, "bad-halfspace")
+    assert "empty" in done.stderr
+
+
+def test_bad_halfspaces():
+    one_error_line(run("intersect", "-", exit_code=1, stdin=qhull_text([[1, 0, 1], [0, 0, 1]])), "bad-halfspace")
+    one_error_line(run("intersect", "-", exit_code=1, stdin=b"3\n1\n1 nan 1\n"), "not-finite")
+    done = run("intersect", "-", "--vertices", "-", "--report", "-", exit_code=1, stdin=qhull_text(cube(2)))
+    one_error_line(done, "usage")
+
+
+def test_pipe_of_three():
+    points = rbox("200 s D5 t1", FOLDER / "sphere.npy")
+    run("hull", FOLDER / "sphere.npy", "--planes", FOLDER / "outer.npy")
+    for name in ("corners.npy", "corners.csv", "corners.txt", "corners.ext"):
+        run("intersect", FOLDER / "outer.npy", "--vertices", FOLDER / name)
+        done = run("hull", FOLDER / name, "--report", "-")
+        assert json.loads(done.stdout)["vertices"] == len(points), name
+    corners = run("intersect", FOLDER / "outer.npy", "--vertices", "-").stdout
+    run("hull", "-", "--planes", FOLDER / "again.ine", stdin=corners.encode())
+    planes = numpy.load(FOLDER / "outer.npy")
+    corners = numpy.load(FOLDER / "corners.npy")
+    assert (planes[:, :5] @ corners.T + planes[:, 5:]).max() < 1e-13
+
+
+run_tests(globals())

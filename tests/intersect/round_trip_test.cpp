@@ -1,0 +1,128 @@
+// Hull, intersection of its planes, hull again: nothing is lost, and exact planes give the points back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/intersect/intersect_support.h"
+#include "tests/support/degeneracies.h"
+#include "tools/rbox.h"
+
+namespace ndhull {
+namespace {
+
+/// Exact planes of points that are all vertices, intersected. `tolerance` [distance] for both ways.
+void expect_identity(const PointSet& points, double tolerance) {
+  const Hull hull = hull_of(points);
+  ASSERT_EQ(hull.vertices.size(), points.rows());
+  const HalfspaceIntersection region = intersect_planes(exact_planes(hull));
+  ASSERT_EQ(region.kind, IntersectionKind::kBounded);
+  EXPECT_EQ(region.vertex_count(), points.rows());
+  EXPECT_LE(furthest_point(points, region), tolerance);
+  EXPECT_LE(furthest_vertex(region, points), tolerance);
+}
+
+PointSet unit_sphere(std::size_t n, std::size_t d, std::uint64_t seed) {
+  return family_points(PointFamily::kSphere, n, d, seed);
+}
+
+TEST(IdentityPipe, OfPointsOnASphere) {
+  for (std::size_t d = 2; d <= 6; ++d) {
+    SCOPED_TRACE("d " + std::to_string(d));
+    expect_identity(unit_sphere(d < 6 ? 100 : 60, d, d), 1e-12);
+  }
+}
+
+// The examples of Qhull's manual, "Imprecision": qhull n | qhull H Fp with s, L1e5, s O10.
+TEST(IdentityPipe, OfTheManualsExamples) {
+  for (const char* command : {"100 s D3", "100 s D4", "100 s D5", "100 s O10 D3", "100 s O10 D5"}) {
+    SCOPED_TRACE(command);
+    expect_identity(rbox(command), 1e-11);
+  }
+  // A lens of radius 1e5: vertices are sharp along its rim only, and planes nearly parallel elsewhere.
+  const PointSet lens = rbox("100 L1e5");
+  const Hull hull = hull_of(lens);
+  const HalfspaceIntersection region = intersect_planes(exact_planes(hull));
+  EXPECT_EQ(region.vertex_count(), hull.vertices.size());
+  EXPECT_LE(furthest_point(vertex_rows(lens, hull), region), 1e-9);
+}
+
+TEST(IdentityPipe, OfPointsFarFromTheOrigin) {
+  // A coordinate of 1e5 is rounded to 1e-11, an offset too; angles between planes multiply that.
+  for (std::size_t d = 3; d <= 5; ++d) {
+    SCOPED_TRACE("d " + std::to_string(d));
+    const PointSet points = unit_sphere(60, d, 3);
+    expect_identity(moved(points, std::vector<double>(d, 1e5)), 1e-8);
+    expect_identity(moved(points, std::vector<double>(d, 1e10)), 1e-3);
+  }
+}
+
+TEST(IdentityPipe, OfNarrowPoints) {
+  for (const double thickness : {1e-3, 1e-6, 1e-9}) {
+    SCOPED_TRACE("thickness " + std::to_string(thickness));
+    PointSet points = unit_sphere(80, 4, 7);
+    points = axis_scaled(points, std::vector<double>{1.0, 1.0, 1.0, thickness});
+    expect_identity(points, 1e-12 / thickness);
+  }
+}
+
+/// hull | intersect | hull on outer planes: contains the input, and has not grown by more than `growth`.
+void expect_round_trip(const PointSet& points, const HullOptions& options, double growth) {
+  const Hull hull = hull_of(points, options);
+  const HalfspaceIntersection region = intersect_planes(outer_planes(hull, points.view()));
+  ASSERT_EQ(region.kind, IntersectionKind::kBounded);
+  const PointSet corners{points.dimension, region.vertices, ""};
+  const Hull again = hull_of(corners);
+  EXPECT_EQ(again.rank, points.dimension);
+  EXPECT_EQ(again.status, HullStatus::kComplete);
+  EXPECT_GE(again.volume, hull.volume * (1.0 - 1e-12));
+  EXPECT_LE(again.volume, hull.volume * (1.0 + growth));
+  EXPECT_NEAR(region.volume.value(), again.volume, 1e-9 * again.volume);
+  // Corners are rounded: the points are inside up to that.
+  const double rounding = 64.0 * 0x1p-52 * extent_of(points);
+  for (std::uint32_t id = 0; id < again.facet_count(); ++id) {
+    const auto normal = again.normal(FacetId{id});
+    for (std::size_t row = 0; row < points.rows(); ++row) {
+      double distance = again.offset(FacetId{id}), size = std::abs(distance);
+      for (std::size_t k = 0; k < points.dimension; ++k) {
+        distance += normal[k] * points.row(row)[k];
+        size += std::abs(normal[k] * points.row(row)[k]);
+      }
+      EXPECT_LE(distance, again.outer_offset(FacetId{id}) + 16.0 * again.roundoff + rounding + 1e-15 * size);
+    }
+  }
+}
+
+TEST(RoundTrip, OfOuterPlanesContainsTheInput) {
+  for (std::size_t d = 2; d <= 5; ++d) {
+    SCOPED_TRACE("d " + std::to_string(d));
+    expect_round_trip(unit_sphere(100, d, 1), {}, 1e-10);
+    expect_round_trip(family_points(PointFamily::kGaussian, 200, d, 2), {}, 1e-10);
+    expect_round_trip(moved(unit_sphere(60, d, 3), std::vector<double>(d, 10.0)), {}, 1e-10);
+  }
+}
+
+TEST(RoundTrip, OfHullsThatALimitEnded) {
+  for (const std::uint64_t facets : {100U, 300U, 1000U}) {
+    HullOptions options;
+    options.limits.max_facets = facets;
+    expect_round_trip(unit_sphere(2000, 5, 4), options, 100.0);
+  }
+}
+
+TEST(RoundTrip, OfHardInputOfFullRank) {
+  for (std::size_t d = 2; d <= 4; ++d) {
+    for (const DegenerateCase& hard : degenerate_cases(40, d, 23)) {
+      SCOPED_TRACE(hard.description);
+      const Hull hull = hull_of(hard.points);
+      if (hull.rank < d) continue;
+      const HalfspaceIntersection region = intersect_planes(outer_planes(hull, hard.points.view()));
+      EXPECT_EQ(region.kind, IntersectionKind::kBounded);
+      EXPECT_GE(region.volume.value(), hull.volume * (1.0 - 1e-12));
+      EXPECT_EQ(region.vertex_count(), hull.vertices.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ndhull

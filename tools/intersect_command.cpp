@@ -1,0 +1,135 @@
+#include "tools/intersect_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+#include "core/error.h"
+#include "tools/byte_count.h"
+#include "tools/command_options.h"
+#include "tools/intersect_run.h"
+#include "tools/text_source.h"
+
+namespace ndhull {
+namespace {
+
+/// The options as they are written; `request` has the others.
+struct Arguments {
+  IntersectRequest request;
+  std::string interior_point, max_memory, format;
+};
+
+/// Numbers parted by blanks or commas.
+std::vector<double> parse_point(const std::string& text) {
+  std::vector<double> point;
+  const char* place = text.data();
+  const char* const end = place + text.size();
+  const auto is_separator = [](char letter) { return letter == ' ' || letter == ',' || letter == '\t'; };
+  while (true) {
+    while (place != end && is_separator(*place)) ++place;
+    if (place == end) return point;
+    double value = 0.0;
+    const char* const next = parse_number(place, end, value);
+    if (next == nullptr || (next != end && !is_separator(*next))) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("--interior-point: found \"{}\", expected finite numbers parted by blanks",
+                              printable(text)));
+    }
+    point.push_back(value);
+    place = next;
+  }
+}
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  IntersectRequest& request = arguments.request;
+  IntersectionOptions& options = request.options;
+  command
+      .add_option("--interior-point", arguments.interior_point,
+                  "a point strictly inside, \"x y ..\"; by default the centre of a largest ball")
+      ->type_name("POINT");
+  command
+      .add_option("--vertices", request.vertices_path,
+                  "write the vertices: .npy, .csv, .tsv, .ext or Qhull text")
+      ->type_name("FILE")
+      ->check(path_name());
+  CLI::Option* const report =
+      command.add_option("--report", request.report_path, "write the report, JSON, with volume and area")
+          ->type_name("FILE")
+          ->check(path_name());
+  command.add_flag("--vertex-list", request.vertex_list, "put every vertex into the report")->needs(report);
+  command
+      .add_option("--format", arguments.format,
+                  "print as qhalf does, any of Fp (vertices) Fv (their halfspaces) Fn (their neighbours) Fx "
+                  "(halfspaces that are not redundant) FN (their vertices) i (Fv without counts)")
+      ->type_name("LIST");
+  command.add_option("--max-facets", options.limits.max_facets, "limit: vertices, coincident ones apart")
+      ->type_name("N")
+      ->check(whole_number(1));
+  command.add_option("--max-seconds", options.limits.max_seconds, "limit: seconds of finding vertices")
+      ->type_name("S")
+      ->check(positive_number());
+  command
+      .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
+      ->type_name("B");
+  command
+      .add_option("--threads", options.threads,
+                  "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
+  command
+      .add_option("--seed", options.seed,
+                  "of the shifts below roundoff that settle degenerate cases; default 1")
+      ->type_name("S")
+      ->check(whole_number(0));
+  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
+  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+}
+
+IntersectRequest complete_request(const CLI::App& command, const Arguments& arguments) {
+  IntersectRequest request = arguments.request;
+  if (command.count("--interior-point") > 0)
+    request.options.interior_point = parse_point(arguments.interior_point);
+  if (!arguments.max_memory.empty()) {
+    request.options.limits.max_memory_bytes = parse_byte_count(arguments.max_memory, "--max-memory");
+  }
+  std::string list = arguments.format;
+  std::replace(list.begin(), list.end(), ',', ' ');
+  std::istringstream names(list);
+  for (std::string name; names >> name;) request.formats.push_back(name);
+  if (command.count("--format") > 0 && request.formats.empty()) {
+    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fp Fv\"");
+  }
+  return request;
+}
+
+}  // namespace
+
+void add_intersect_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = app.add_subcommand(
+      "intersect", "What halfspaces a.x + b <= 0 have in common: vertices, volume, or why there are none.");
+  command
+      ->add_option("HALFSPACES", arguments->request.halfspaces_path,
+                   "halfspaces: a file, or - for standard input")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  add_options(*command, *arguments);
+  command->footer(
+      "HALFSPACES: .ine (cdd, lrs), .npy (rows normal, offset), Qhull text or columns; a point \"d 1\" in "
+      "front\n"
+      "is taken for --interior-point. FILE may be - for standard output.\n"
+      "The intersection is bounded, unbounded (with a direction), empty (with a combination of halfspaces\n"
+      "that proves it) or lower-dimensional (with equations): `status` in the report, and the summary, say "
+      "which.\n"
+      "Exit code: 0 written, 1 usage or input, or vertices were asked for and there are none, 3 internal\n"
+      "error, 130 interrupted and written.\n" +
+      example("ndhull hull points.npy --planes - | ndhull intersect - --vertices corners.npy"));
+  command->callback([arguments, command, &exit_code] {
+    exit_code = run_intersect(complete_request(*command, *arguments));
+  });
+}
+
+}  // namespace ndhull

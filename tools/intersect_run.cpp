@@ -1,0 +1,110 @@
+// Steps in order: read, intersect (the library), write. Nothing is opened for writing before the input is
+// known to be good, and every file appears whole or not at all.
+#include "tools/intersect_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/error.h"
+#include "tools/halfspace_reader.h"
+#include "tools/interrupt.h"
+#include "tools/intersection_writer.h"
+#include "tools/output_file.h"
+#include "tools/point_writer.h"
+#include "tools/progress_line.h"
+
+namespace ndhull {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void check_outputs_differ(const IntersectRequest& request) {
+  std::vector<std::pair<std::string_view, std::string>> outputs;
+  if (!request.vertices_path.empty()) outputs.emplace_back("--vertices", request.vertices_path);
+  if (!request.formats.empty()) outputs.emplace_back("--format", "-");
+  if (!request.report_path.empty()) outputs.emplace_back("--report", request.report_path);
+  for (std::size_t one = 0; one < outputs.size(); ++one) {
+    for (std::size_t other = 0; other < one; ++other) {
+      if (outputs[one].second != outputs[other].second) continue;
+      throw Error(
+          ErrorCode::kUsage,
+          fmt::format("{} and {}: found both on {}, expected a place for each; give one of them a file",
+                      outputs[other].first, outputs[one].first,
+                      outputs[one].second == "-" ? "standard output" : outputs[one].second));
+    }
+  }
+}
+
+void write_text(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+void write_vertices(const IntersectRequest& request, const HalfspaceIntersection& intersection) {
+  if (!request.vertices_path.empty()) {
+    PointWriter writer(request.vertices_path,
+                       {.rows = intersection.vertex_count(), .dimension = intersection.dimension});
+    writer.write(PointView::row_major(intersection.vertices.data(), intersection.vertex_count(),
+                                      intersection.dimension));
+    writer.commit();
+  }
+  if (!request.formats.empty()) {
+    OutputFile file("-");
+    write_intersection_formats(file, request.formats, intersection);
+    file.commit();
+  }
+}
+
+}  // namespace
+
+int run_intersect(const IntersectRequest& request) {
+  const Clock::time_point start = Clock::now();
+  check_outputs_differ(request);
+  check_intersection_formats(request.formats);
+  Interrupt interrupt;
+  ProgressLine progress(request.progress, request.quiet);
+  progress.show_phase("read");
+  const HalfspaceFile file = read_halfspaces(request.halfspaces_path);
+  IntersectionReportContext context{.input_path = request.halfspaces_path, .options = request.options};
+  context.vertex_list = request.vertex_list;
+  if (!context.options.interior_point) context.options.interior_point = file.interior_point;
+  context.options.stop = interrupt.token();
+  const bool wants_vertices = !request.vertices_path.empty() || !request.formats.empty();
+  context.options.measure = !request.report_path.empty() || !wants_vertices;
+  if (progress.is_shown()) {
+    context.options.progress = [&progress](const Progress& now) { progress.show(now); };
+  }
+  context.read_seconds = seconds_since(start);
+
+  interrupt.arm();
+  const HalfspaceIntersection intersection = intersect_halfspaces(
+      PointView::row_major(file.rows.data(), file.count, file.dimension + 1), context.options);
+  progress.clear();
+
+  const bool has_vertices = intersection.kind == IntersectionKind::kBounded ||
+                            intersection.kind == IntersectionKind::kLowerDimensional;
+  const Clock::time_point write_start = Clock::now();
+  if (has_vertices) write_vertices(request, intersection);
+  context.write_seconds = seconds_since(write_start);
+  context.total_seconds = seconds_since(start);
+  if (!request.report_path.empty())
+    write_text(request.report_path, intersection_report(intersection, context));
+  if (wants_vertices && !has_vertices) {
+    throw Error(ErrorCode::kBadHalfspace,
+                fmt::format("{}: found an intersection that is {}, expected vertices to write; add or remove "
+                            "halfspaces, or ask for --report only",
+                            file.path, describe_without_vertices(intersection)));
+  }
+  if (!wants_vertices && request.report_path.empty() && !request.quiet)
+    write_text("-", intersection_summary(intersection, request.halfspaces_path));
+  return interrupt.requested() ? kInterruptedExitCode : 0;
+}
+
+}  // namespace ndhull

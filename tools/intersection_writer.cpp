@@ -1,0 +1,219 @@
+#include "tools/intersection_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "approx/report.h"
+#include "core/error.h"
+
+namespace ndhull {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_rows(OutputFile& file, const IdRows& rows, bool with_count) {
+  file.print("{}\n", rows.begin.size() - 1);
+  for (std::size_t row = 0; row + 1 < rows.begin.size(); ++row) {
+    const auto ids = rows.row(row);
+    if (with_count) file.print("{} ", ids.size());
+    for (const std::uint32_t id : ids) file.print("{} ", id);
+    file.write("\n");
+  }
+}
+
+void write_vertices(OutputFile& file, const HalfspaceIntersection& intersection) {
+  file.print("{}\n{}\n", intersection.dimension, intersection.vertex_count());
+  for (std::size_t at = 0; at < intersection.vertices.size(); ++at) {
+    file.print("{:6.16g} ", intersection.vertices[at]);
+    if ((at + 1) % intersection.dimension == 0) file.write("\n");
+  }
+}
+
+void write_non_redundant(OutputFile& file, const HalfspaceIntersection& intersection) {
+  file.print("{}\n", intersection.non_redundant.size());
+  for (const std::uint32_t id : intersection.non_redundant) file.print("{}\n", id);
+}
+
+/// Row h of the transposed table: the vertices in halfspace h.
+IdRows vertices_of_halfspaces(const HalfspaceIntersection& intersection) {
+  const IdRows& halfspaces = intersection.halfspaces_of;
+  IdRows rows;
+  rows.begin.assign(intersection.halfspace_count + 1, 0);
+  for (const std::uint32_t id : halfspaces.values) ++rows.begin[id + 1];
+  for (std::size_t id = 0; id < intersection.halfspace_count; ++id) rows.begin[id + 1] += rows.begin[id];
+  rows.values.resize(halfspaces.values.size());
+  std::vector<std::uint32_t> next(rows.begin.begin(), rows.begin.end() - 1);
+  for (std::uint32_t vertex = 0; vertex + 1 < halfspaces.begin.size(); ++vertex) {
+    for (const std::uint32_t id : halfspaces.row(vertex)) rows.values[next[id]++] = vertex;
+  }
+  return rows;
+}
+
+using Writer = void (*)(OutputFile&, const HalfspaceIntersection&);
+
+struct Format {
+  std::string_view name;
+  Writer write;
+};
+
+constexpr Format kFormats[] = {
+    {"Fp", write_vertices},
+    {"Fv", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, true); }},
+    {"i", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, false); }},
+    {"Fn", [](OutputFile& file, const auto& region) { write_rows(file, region.neighbours_of, true); }},
+    {"Fx", write_non_redundant},
+    {"FN",
+     [](OutputFile& file, const auto& region) { write_rows(file, vertices_of_halfspaces(region), true); }},
+};
+
+const Format& find_format(const std::string& name) {
+  for (const Format& format : kFormats) {
+    if (format.name == name) return format;
+  }
+  throw Error(ErrorCode::kUsage,
+              fmt::format("format: found \"{}\", expected some of Fp Fv Fn Fx FN i; correct the list", name));
+}
+
+std::string status_of(const HalfspaceIntersection& intersection) {
+  std::string name(to_string(intersection.kind));
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+/// JSON has no infinity: null says that there is no largest ball.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json row_of(std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); }
+
+Json equations_of(const HalfspaceIntersection& intersection) {
+  Json rows = Json::array();
+  const std::size_t columns = intersection.dimension + 1;
+  for (std::size_t at = 0; at < intersection.equations.size(); at += columns)
+    rows.push_back(row_of({intersection.equations.data() + at, columns}));
+  return rows;
+}
+
+Json proof_of(const HalfspaceIntersection& intersection) {
+  Json terms = Json::array();
+  for (const HalfspaceWeight& term : intersection.proof)
+    terms.push_back({{"halfspace", term.halfspace}, {"weight", term.weight}});
+  return {{"combination", std::move(terms)},
+          {"gap", intersection.proof_gap},
+          {"residual", intersection.proof_residual}};
+}
+
+Json vertices_of(const HalfspaceIntersection& intersection) {
+  Json list = Json::array();
+  for (std::size_t vertex = 0; vertex < intersection.vertex_count(); ++vertex) {
+    const auto halfspaces = intersection.halfspaces_of.row(vertex);
+    const auto neighbours = intersection.neighbours_of.row(vertex);
+    list.push_back({{"point", row_of({intersection.vertices.data() + vertex * intersection.dimension,
+                                      intersection.dimension})},
+                    {"halfspaces", std::vector<std::uint32_t>(halfspaces.begin(), halfspaces.end())},
+                    {"neighbors", std::vector<std::uint32_t>(neighbours.begin(), neighbours.end())}});
+  }
+  return list;
+}
+
+}  // namespace
+
+void check_intersection_formats(const std::vector<std::string>& formats) {
+  for (const std::string& name : formats) find_format(name);
+}
+
+void write_intersection_formats(OutputFile& file, const std::vector<std::string>& formats,
+                                const HalfspaceIntersection& intersection) {
+  check_intersection_formats(formats);
+  for (const std::string& name : formats) find_format(name).write(file, intersection);
+}
+
+std::string describe_without_vertices(const HalfspaceIntersection& intersection) {
+  if (intersection.kind == IntersectionKind::kEmpty) {
+    std::string names;
+    for (const HalfspaceWeight& term : intersection.proof)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", term.halfspace);
+    return fmt::format("empty: halfspaces {} miss each other by {:.6g}", names, intersection.proof_gap);
+  }
+  return fmt::format("unbounded along ({:.6g})", fmt::join(intersection.direction, ", "));
+}
+
+std::string intersection_summary(const HalfspaceIntersection& intersection, const std::string& path) {
+  std::string text =
+      fmt::format("halfspaces  {}: {} in {}-d\n", path, intersection.halfspace_count, intersection.dimension);
+  const bool has_vertices = intersection.kind == IntersectionKind::kBounded ||
+                            intersection.kind == IntersectionKind::kLowerDimensional;
+  text += fmt::format("status      {}\n",
+                      has_vertices ? status_of(intersection) : describe_without_vertices(intersection));
+  if (intersection.kind == IntersectionKind::kEmpty) return text;
+  if (intersection.status != HullStatus::kComplete) {
+    text += fmt::format("limit       {}: the intersection is inside what follows\n",
+                        to_string(intersection.status));
+  }
+  if (intersection.rank < intersection.dimension) {
+    text += fmt::format("rank        {}: the region lies in the planes of {} halfspaces\n", intersection.rank,
+                        intersection.equalities.size());
+  }
+  if (!has_vertices) return text;
+  text += fmt::format("vertices    {}\n", intersection.vertex_count());
+  text += fmt::format("bounding    {} halfspaces are not redundant\n", intersection.non_redundant.size());
+  if (intersection.volume) text += fmt::format("volume      {:.10g}\n", *intersection.volume);
+  if (intersection.area) text += fmt::format("area        {:.10g}\n", *intersection.area);
+  text += fmt::format("residual    {:.3g}: the furthest vertex from a plane it is on\n",
+                      intersection.max_residual);
+  return text;
+}
+
+std::string intersection_report(const HalfspaceIntersection& intersection,
+                                const IntersectionReportContext& context) {
+  const bool is_empty = intersection.kind == IntersectionKind::kEmpty;
+  Json report{{"ndhull", version()},
+              {"input",
+               {{"path", context.input_path},
+                {"halfspaces", intersection.halfspace_count},
+                {"dimension", intersection.dimension}}},
+              {"status", status_of(intersection)},
+              {"hull_status", to_string(intersection.status)},
+              {"options",
+               {{"interior_point",
+                 context.options.interior_point ? Json(*context.options.interior_point) : Json(nullptr)},
+                {"max_facets", context.options.limits.max_facets},
+                {"max_seconds", context.options.limits.max_seconds},
+                {"max_memory", context.options.limits.max_memory_bytes},
+                {"threads", context.options.threads},
+                {"seed", context.options.seed}}}};
+  if (is_empty) {
+    report["proof"] = proof_of(intersection);
+  } else {
+    report["rank"] = intersection.rank;
+    report["interior_point"] = intersection.interior_point;
+    report["inner_radius"] = finite_or_null(intersection.inner_radius);
+    report["equations"] = equations_of(intersection);
+    report["equalities"] = intersection.equalities;
+  }
+  if (intersection.kind == IntersectionKind::kUnbounded) {
+    report["direction"] = intersection.direction;
+    report["direction_margin"] = intersection.direction_margin;
+  } else if (!is_empty) {
+    report["vertices"] = intersection.vertex_count();
+    report["non_redundant"] = intersection.non_redundant;
+    report["volume"] = intersection.volume ? Json(*intersection.volume) : Json(nullptr);
+    report["area"] = intersection.area ? Json(*intersection.area) : Json(nullptr);
+    report["max_residual"] = intersection.max_residual;
+  }
+  report["seconds"] = {{"read", context.read_seconds},
+                       {"region", intersection.region_seconds},
+                       {"dual_hull", intersection.dual_hull_seconds},
+                       {"vertices", intersection.vertex_seconds},
+                       {"measure", intersection.measure_seconds},
+                       {"write", context.write_seconds},
+                       {"total", context.total_seconds}};
+  report["peak_memory_bytes"] = peak_memory_bytes();
+  if (context.vertex_list) report["vertex_list"] = vertices_of(intersection);
+  return report.dump(2) + "\n";
+}
+
+}  // namespace ndhull
