@@ -6,7 +6,6 @@
 //   5 facet table      approx/facet_table   planes in input units, outer and inner offsets proven, areas
 #include <tbb/task_arena.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "approx/coplanar_merge.h"
 #include "approx/facet_table.h"
+#include "approx/frame_planes.h"
 #include "approx/hull.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -98,25 +98,7 @@ class HullBuilder {
     hull_.reference = frame_.centre;
     hull_.length_unit_ = LengthUnit(frame_, options_.unit_cube);
     if (frame_.rank == 0) hull_.vertices.push_back(PointId{0});
-    if (frame_.rank < frame_.dimension) describe_subspace();
-  }
-
-  /// Rows normal, offset of dimension - rank independent equations normal . x + offset = 0.
-  void describe_subspace() {
-    const auto columns = static_cast<Eigen::Index>(frame_.dimension);
-    const auto rank = static_cast<Eigen::Index>(frame_.rank);
-    Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(columns, columns);
-    if (rank > 0) {
-      const Eigen::Map<const Eigen::MatrixXd> directions(frame_.basis.data(), columns, rank);
-      const Eigen::HouseholderQR<Eigen::MatrixXd> factors(directions);
-      complement = factors.householderQ() * Eigen::MatrixXd::Identity(columns, columns);
-    }
-    const Eigen::Map<const Eigen::VectorXd> centre(frame_.centre.data(), columns);
-    for (Eigen::Index row = rank; row < columns; ++row) {
-      const Eigen::VectorXd normal = complement.col(row);
-      hull_.subspace_equations.insert(hull_.subspace_equations.end(), normal.data(), normal.data() + columns);
-      hull_.subspace_equations.push_back(-normal.dot(centre));
-    }
+    hull_.subspace_equations = find_subspace_equations(frame_);
   }
 
   /// rank 1: the two ends, each a facet with one vertex.

@@ -57,6 +57,26 @@ void map_normals(const Frame& frame, const double* planes, std::size_t count, do
   }
 }
 
+std::vector<double> find_subspace_equations(const Frame& frame) {
+  std::vector<double> equations;
+  const auto columns = static_cast<Eigen::Index>(frame.dimension);
+  const auto rank = static_cast<Eigen::Index>(frame.rank);
+  if (rank == columns) return equations;
+  Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(columns, columns);
+  if (rank > 0) {
+    const Eigen::Map<const Eigen::MatrixXd> directions(frame.basis.data(), columns, rank);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(directions);
+    complement = factors.householderQ() * Eigen::MatrixXd::Identity(columns, columns);
+  }
+  const Eigen::Map<const Eigen::VectorXd> centre(frame.centre.data(), columns);
+  for (Eigen::Index row = rank; row < columns; ++row) {
+    const Eigen::VectorXd normal = complement.col(row);
+    equations.insert(equations.end(), normal.data(), normal.data() + columns);
+    equations.push_back(-normal.dot(centre));
+  }
+  return equations;
+}
+
 double sum_error(std::size_t terms, double size) {
   const double rounding = static_cast<double>(terms) * 0x1p-53;
   return rounding / (1.0 - rounding) * size;

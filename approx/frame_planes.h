@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/frame.h"
 
@@ -17,6 +18,10 @@ double volume_scale(const Frame& frame);
 ///          the distance [input units] of the plane a.y = 1 from the frame's centre.
 void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out,
                  double* lengths = nullptr);
+
+/// Rows normal, offset of dimension - rank independent equations normal . x + offset = 0 of the subspace that
+/// the data lie in; empty when that is the whole space.
+std::vector<double> find_subspace_equations(const Frame& frame);
 
 /// Bound on the error of a computed sum of `terms` products of the given size: gamma_terms * size.
 /// Source  Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <utility>
 
 #include "approx/report.h"
@@ -15,6 +14,7 @@
 #include "tools/hull_summary.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
+#include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/plane_writer.h"
 #include "tools/point_reader.h"
@@ -32,11 +32,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-struct NamedOutput {
-  std::string_view option;
-  std::string path;
-};
-
 std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   std::vector<NamedOutput> outputs;
   if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path});
@@ -45,33 +40,6 @@ std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
   return outputs;
 }
-
-void check_outputs_differ(const std::vector<NamedOutput>& outputs) {
-  for (std::size_t one = 0; one < outputs.size(); ++one) {
-    for (std::size_t other = 0; other < one; ++other) {
-      if (outputs[one].path != outputs[other].path) continue;
-      throw Error(
-          ErrorCode::kUsage,
-          fmt::format("{} and {}: found both on {}, expected a place for each; give one of them a file",
-                      outputs[other].option, outputs[one].option,
-                      outputs[one].path == "-" ? "standard output" : outputs[one].path));
-    }
-  }
-}
-
-/// Says that a file cannot be written before the time for the hull is spent, not after it.
-void check_outputs_are_writable(const std::vector<NamedOutput>& outputs) {
-  for (const NamedOutput& output : outputs) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(output.path, ignored);
-    // Opening a pipe and closing it again would tell its reader that this is all.
-    const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-                            !std::filesystem::is_directory(status);
-    if (output.path != "-" && !is_special) const OutputFile probe(output.path);
-  }
-}
-
-OptionValue path_or_null(const std::string& path) { return path.empty() ? OptionValue() : OptionValue(path); }
 
 std::vector<std::pair<std::string, OptionValue>> program_options(const HullRequest& request) {
   OptionValue verify, formats;

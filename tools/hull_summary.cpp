@@ -4,23 +4,9 @@
 
 #include "approx/verify.h"
 #include "tools/byte_count.h"
+#include "tools/summary_text.h"
 
 namespace ndhull {
-namespace {
-
-/// 53940 as 53,940.
-std::string grouped(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
-  return digits;
-}
-
-std::string power_of_unit(std::size_t power) {
-  return power == 1 ? "[input]" : fmt::format("[input^{}]", power);
-}
-
-}  // namespace
-
 std::string hull_summary(const Hull& hull, const ReportContext& context) {
   const std::string_view unit = context.options.unit_cube ? "[unit cube]" : "[input]";
   std::string text = fmt::format("hull      {}: {} points in {}-d, {}\n", context.input_path,

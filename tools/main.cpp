@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
+#include "tools/largest_command.h"
 #include "tools/point_set_commands.h"
 #include "tools/verify_command.h"
 #include "tools/view_command.h"
@@ -68,6 +69,7 @@ int run(const std::vector<std::string>& arguments) {
   // One line a command; the order is that of --help.
   ndhull::add_hull_command(app, exit_code);
   ndhull::add_intersect_command(app, exit_code);
+  ndhull::add_largest_command(app, exit_code);
   ndhull::add_generate_command(app);
   ndhull::add_rbox_command(app);
   ndhull::add_verify_command(app, exit_code);

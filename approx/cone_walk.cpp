@@ -1,0 +1,101 @@
+#include "approx/cone_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ndhull {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Pivots after which rounding is taken out of the inverse: each adds about u times its growth.
+constexpr std::size_t kPivotsToRefresh = 32;
+/// A point is given up only where its share of the new point is above this part of the largest one: a pivot
+/// on rounding noise would make the basis flat.
+constexpr double kSmallestPivot = 1e-11;
+/// Weights of a cone that holds its ray may be this much below 0, by rounding.
+constexpr double kWeightRounding = 1e-9;
+
+}  // namespace
+
+bool ConeWalk::start_ray(const FramePoints& points, std::vector<std::uint32_t> basis,
+                         const Eigen::VectorXd& direction) {
+  basis_ = std::move(basis);
+  direction_ = direction;
+  place_ = kAnyPlace;
+  turns_ = false;
+  pivot_count_ = 0;
+  return refresh(points) && weights_.minCoeff() >= -kWeightRounding * weights_.cwiseAbs().maxCoeff();
+}
+
+bool ConeWalk::start_ridge(const FramePoints& points, std::vector<std::uint32_t> basis, std::size_t place) {
+  basis_ = std::move(basis);
+  direction_.resize(0);
+  place_ = place;
+  turns_ = true;
+  pivot_count_ = 0;
+  return refresh(points);
+}
+
+bool ConeWalk::refresh(const FramePoints& points) {
+  const auto rank = static_cast<Index>(points.rank);
+  Rows rows(rank, rank);
+  for (Index k = 0; k < rank; ++k) rows.row(k) = points.point(basis_[static_cast<std::size_t>(k)]);
+  const Eigen::PartialPivLU<Rows> factors(rows);
+  inverse_ = factors.inverse().transpose();
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
+  plane_ = factors.solve(ones);
+  plane_ += factors.solve(ones - rows * plane_);  // one step of refinement
+  if (direction_.size() > 0) {
+    // rows^T weights = direction
+    weights_ = inverse_ * direction_;
+    weights_ += inverse_ * (direction_ - rows.transpose() * weights_);
+  } else {
+    weights_ = Eigen::VectorXd::Zero(rank);
+  }
+  pivots_since_refresh_ = 0;
+  return plane_.allFinite() && inverse_.allFinite() && weights_.allFinite();
+}
+
+std::size_t ConeWalk::leaving_place(const Eigen::VectorXd& entering) const {
+  if (place_ != kAnyPlace) return place_;
+  const double smallest = kSmallestPivot * entering.cwiseAbs().maxCoeff();
+  std::size_t best = kAnyPlace;
+  double best_ratio = HUGE_VAL;
+  for (Index k = 0; k < entering.size(); ++k) {
+    if (!(entering[k] > smallest)) continue;
+    const double ratio = std::max(weights_[k], 0.0) / entering[k];
+    if (ratio >= best_ratio) continue;
+    best_ratio = ratio;
+    best = static_cast<std::size_t>(k);
+  }
+  return best;
+}
+
+bool ConeWalk::pivot(const FramePoints& points, std::uint32_t id) {
+  const auto point = points.point(id);
+  const Eigen::VectorXd entering = inverse_ * point;
+  const std::size_t place = leaving_place(entering);
+  if (place == kAnyPlace) return false;
+  const auto at = static_cast<Index>(place);
+  const double share = entering[at];
+  if (share == 0.0) return false;
+  inverse_.row(at) /= share;
+  const Eigen::RowVectorXd pivot_row = inverse_.row(at);
+  const double weight = weights_[at] / share;
+  for (Index k = 0; k < entering.size(); ++k) {
+    if (k == at) continue;
+    inverse_.row(k) -= entering[k] * pivot_row;
+    weights_[k] -= entering[k] * weight;
+  }
+  weights_[at] = weight;
+  plane_ -= (plane_.dot(point) - 1.0) * pivot_row.transpose();
+  basis_[place] = id;
+  turns_ = false;
+  ++pivot_count_;
+  if (++pivots_since_refresh_ >= kPivotsToRefresh) return refresh(points);
+  return plane_.allFinite();
+}
+
+}  // namespace ndhull

@@ -1,0 +1,352 @@
+#include "approx/ray_shooting.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/portable_random.h"
+
+namespace ndhull {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Walks under way at a time: enough directions for products near the machine's peak.
+constexpr std::size_t kWindow = 256;
+/// Walks that one core takes over the core points together.
+constexpr std::size_t kWalksPerGroup = 16;
+/// A set of points this small is its own core.
+constexpr std::size_t kSmallSet = 2048;
+/// Points are above a plane by this gauge, or are not; growth moves points by as much (core/DESIGN.md).
+constexpr double kAbove = 1e-12;
+/// [ratio] coplanar points to points that are not above: growth merges within four shifts.
+constexpr double kCoplanarToAbove = 4.0;
+/// The walk is given up after so many pivots a dimension. Walks take up to five.
+constexpr std::size_t kMaxPivotsPerDimension = 100;
+/// Directions whose furthest points the centre is the mean of, with their opposites.
+constexpr std::size_t kCentreDirections = 128;
+constexpr std::uint64_t kCentreSeed = 1;
+/// How far the centre is moved from the simplex' mean to that of those points; the rest keeps it inside.
+constexpr double kCentreShare = 0.875;
+
+double unit_roundoff_bound(const FramePoints& points, double plane_length) {
+  return 8.0 * static_cast<double>(points.rank) * 0x1p-53 * plane_length * points.largest_length;
+}
+
+}  // namespace
+
+/// A walk under way.
+struct RayShooter::Walker {
+  enum class State { kOnCore, kOnAll, kDone };
+  std::size_t task = 0;
+  std::uint32_t skip = DirectionQuery::kNoPoint;
+  bool ends_inside = false;
+  State state = State::kOnCore;
+  ConeWalk walk;
+  DirectionQuery query;
+  double direction_length = 1.0;         // of the plane that the query's direction is a unit vector along
+  std::vector<std::uint32_t> additions;  // points that were above: the core takes them in
+  WalkResult result;
+};
+
+namespace {
+
+/// Writes the unit direction a walk asks about, and the query.
+template <class Walker>
+void ask(Walker& walker, double product_error, float* direction) {
+  const Eigen::VectorXd wanted = walker.walk.turns() ? walker.walk.turn_direction() : walker.walk.plane();
+  const double length = wanted.norm();
+  for (Index k = 0; k < wanted.size(); ++k) direction[k] = static_cast<float>(wanted[k] / length);
+  walker.direction_length = length;
+  // What is refuted is above the plane whatever the rounding was; what is not near is below it.
+  const double level = walker.walk.turns() ? 0.0 : 1.0 / length;
+  walker.query.skip = walker.skip;
+  walker.query.refute = static_cast<float>(level + 2.0 * product_error);
+  walker.query.threshold = static_cast<float>(std::max(level - 2.0 * product_error, 0.0));
+}
+
+}  // namespace
+
+RayShooter::RayShooter(const PointView& points) : frame_(fit_frame(points)) {
+  point_count_ = points.rows;
+  if (frame_.rank == 0) return;
+  const std::vector<std::uint32_t> furthest = find_centre(points);
+  is_in_core_.assign(point_count_, false);
+  fill_tiles();
+  core_ = ScanTiles(frame_.rank);
+  for (const std::uint32_t id : furthest) add_to_core(id);
+}
+
+/// Returns the points that the core begins with.
+std::vector<std::uint32_t> RayShooter::find_centre(const PointView& points) {
+  const std::size_t rank = frame_.rank;
+  coordinates_.resize((point_count_ + 2 * rank) * rank);
+  map_points(points, frame_, coordinates_.data());
+  Eigen::MatrixXd simplex(static_cast<Index>(rank), static_cast<Index>(rank + 1));
+  const FramePoints in_frame{coordinates_.data(), rank, 0.0};
+  for (std::size_t k = 0; k <= rank; ++k) {
+    simplex.col(static_cast<Index>(k)) = in_frame.point(frame_.simplex[k].value);
+  }
+  double longest = 0.0;  // dual vertex of the simplex: one over the distance of the nearest facet from 0
+  for (Index omitted = 0; omitted <= simplex.rows(); ++omitted) {
+    Eigen::MatrixXd facet(simplex.rows(), simplex.rows());
+    for (Index row = 0, from = 0; from <= simplex.rows(); ++from) {
+      if (from != omitted) facet.row(row++) = simplex.col(from).transpose();
+    }
+    const Eigen::VectorXd plane = facet.partialPivLu().solve(Eigen::VectorXd::Ones(simplex.rows()));
+    longest = std::max(longest, plane.norm());
+  }
+  inner_radius_ = 0.5 * (1.0 - kCentreShare) / longest;
+
+  ScanTiles tiles(rank);
+  tiles.reserve(point_count_);
+  for (std::uint32_t id = 0; id < point_count_; ++id) tiles.append(in_frame.row(id), id);
+  PortableRandom random(kCentreSeed);
+  std::vector<float> directions;
+  for (std::size_t one = 0; one < kCentreDirections; ++one) {
+    std::vector<double> direction(rank);
+    double length_sq = 0.0;
+    for (double& x : direction) {
+      x = random.normal();
+      length_sq += x * x;
+    }
+    for (const double sign : {1.0, -1.0}) {
+      for (const double x : direction)
+        directions.push_back(static_cast<float>(sign * x / std::sqrt(length_sq)));
+    }
+  }
+  std::vector<DirectionQuery> queries(2 * kCentreDirections);
+  scan_directions_in_parallel(tiles, directions, queries);
+  std::vector<std::uint32_t> furthest;
+  for (const PointId id : frame_.simplex) furthest.push_back(id.value);
+  std::vector<double> mean(frame_.dimension, 0.0);
+  const double weight = kCentreShare / static_cast<double>(queries.size());
+  for (std::size_t k = 0; k < frame_.dimension; ++k) mean[k] = (1.0 - kCentreShare) * frame_.centre[k];
+  for (const DirectionQuery& query : queries) {
+    furthest.push_back(query.furthest);
+    for (std::size_t k = 0; k < frame_.dimension; ++k) mean[k] += weight * points.at(query.furthest, k);
+  }
+  frame_.centre = mean;
+  map_points(points, frame_, coordinates_.data());
+  for (std::size_t k = 0; k < rank; ++k) {  // two points inside the hull on each axis: the first basis
+    coordinates_[(point_count_ + k) * rank + k] = inner_radius_;
+    coordinates_[(point_count_ + rank + k) * rank + k] = -inner_radius_;
+  }
+  if (point_count_ <= kSmallSet) {
+    furthest.resize(point_count_);
+    std::iota(furthest.begin(), furthest.end(), 0);
+  }
+  return furthest;
+}
+
+/// Longest points first; of equal points only the first, so that points on a plane are different ones.
+void RayShooter::fill_tiles() {
+  const std::size_t rank = frame_.rank;
+  const FramePoints in_frame{coordinates_.data(), rank, 0.0};
+  std::vector<double> length_sq(point_count_);
+  for (std::uint32_t id = 0; id < point_count_; ++id) length_sq[id] = in_frame.point(id).squaredNorm();
+  std::vector<std::uint32_t> order(point_count_);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (length_sq[a] != length_sq[b]) return length_sq[a] > length_sq[b];
+    const double *const x = in_frame.row(a), *const y = in_frame.row(b);
+    for (std::size_t k = 0; k < rank; ++k) {
+      if (x[k] != y[k]) return x[k] < y[k];
+    }
+    return a < b;
+  });
+  all_ = ScanTiles(rank);
+  all_.reserve(point_count_);
+  const double* last = nullptr;
+  for (const std::uint32_t id : order) {
+    const double* const row = in_frame.row(id);
+    const bool is_copy = last != nullptr && std::equal(row, row + rank, last);
+    last = row;
+    if (is_copy) {
+      is_in_core_[id] = true;  // never to be added
+    } else {
+      all_.append(row, id);
+    }
+  }
+  all_.mark_sorted();
+}
+
+void RayShooter::add_to_core(std::uint32_t id) {
+  if (is_in_core_[id]) return;
+  is_in_core_[id] = true;
+  core_.append(points().row(id), id);
+}
+
+bool RayShooter::begin(const WalkTask& task, Walker& walker) const {
+  walker.skip = task.skip;
+  walker.ends_inside = task.ends_inside;
+  walker.state = Walker::State::kOnCore;
+  walker.result = WalkResult();
+  walker.result.end = WalkEnd::kOpen;
+  walker.additions.clear();
+  if (task.direction.empty()) return walker.walk.start_ridge(points(), task.basis, task.place);
+  std::vector<std::uint32_t> axes;
+  const std::size_t rank = frame_.rank;
+  for (std::size_t k = 0; k < rank; ++k) {
+    axes.push_back(static_cast<std::uint32_t>(point_count_ + k + (task.direction[k] < 0.0 ? rank : 0)));
+  }
+  const Eigen::Map<const Eigen::VectorXd> direction(task.direction.data(), static_cast<Index>(rank));
+  return walker.walk.start_ray(points(), std::move(axes), direction);
+}
+
+void RayShooter::walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const {
+  const std::size_t rank = frame_.rank;
+  std::vector<Walker*> active(walkers.begin(), walkers.end());
+  std::vector<float> directions;
+  std::vector<DirectionQuery> queries;
+  const std::size_t most_pivots = kMaxPivotsPerDimension * rank;
+  while (!active.empty()) {
+    directions.resize(active.size() * rank);
+    queries.resize(active.size());
+    for (std::size_t row = 0; row < active.size(); ++row) {
+      ask(*active[row], core_.product_error(), directions.data() + row * rank);
+      queries[row] = active[row]->query;
+      // Only the furthest point matters here.
+      queries[row].threshold = queries[row].refute;
+    }
+    scan_directions(core_, directions, queries);
+    counters.core_products += active.size() * core_.size();
+    std::vector<Walker*> rest;
+    for (std::size_t row = 0; row < active.size(); ++row) {
+      Walker& walker = *active[row];
+      if (!queries[row].is_refuted) {
+        walker.state = Walker::State::kOnAll;
+        continue;
+      }
+      ++counters.pivots;
+      if (!walker.walk.pivot(points(), queries[row].furthest) || walker.walk.pivot_count() > most_pivots) {
+        walker.state = Walker::State::kDone;
+      } else if (walker.ends_inside && walker.walk.gauge() <= 1.0 + kAbove) {
+        walker.state = Walker::State::kDone;
+        walker.result.end = WalkEnd::kInside;
+      } else {
+        rest.push_back(&walker);
+      }
+    }
+    active = std::move(rest);
+  }
+}
+
+/// The plane has been multiplied with all points: is it a facet's?
+void RayShooter::decide(Walker& walker) const {
+  walker.state = Walker::State::kOnCore;
+  const FramePoints all = points();
+  const auto take_in = [&](std::uint32_t id) {
+    walker.additions.push_back(id);
+    if (walker.walk.pivot(all, id) && walker.walk.pivot_count() <= kMaxPivotsPerDimension * frame_.rank) {
+      if (!walker.ends_inside || walker.walk.gauge() > 1.0 + kAbove) return;
+      walker.result.end = WalkEnd::kInside;
+    }
+    walker.state = Walker::State::kDone;
+  };
+  if (walker.query.is_refuted) return take_in(walker.query.furthest);
+  if (walker.walk.turns()) {  // no point beyond the ridge: the facet is all there is
+    walker.state = Walker::State::kDone;
+    return;
+  }
+  const Eigen::VectorXd& plane = walker.walk.plane();
+  const double above = kAbove + unit_roundoff_bound(all, plane.norm());
+  double worst = above;
+  std::uint32_t worst_id = DirectionQuery::kNoPoint;
+  for (const std::uint32_t id : walker.query.near) {
+    const double gauge = plane.dot(all.point(id)) - 1.0;
+    if (gauge <= worst) continue;
+    worst = gauge;
+    worst_id = id;
+  }
+  if (worst_id != DirectionQuery::kNoPoint) return take_in(worst_id);
+  WalkResult& result = walker.result;
+  walker.state = Walker::State::kDone;
+  result.end = WalkEnd::kFacet;
+  result.coplanar = kCoplanarToAbove * above;
+  for (const std::uint32_t id : walker.query.near) {
+    if (plane.dot(all.point(id)) - 1.0 >= -result.coplanar) result.on_plane.push_back(id);
+  }
+  std::sort(result.on_plane.begin(), result.on_plane.end());
+  result.basis = walker.walk.basis();
+  result.plane.assign(plane.data(), plane.data() + plane.size());
+  result.gauge = walker.walk.gauge();
+}
+
+std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::stop_token stop) {
+  const std::size_t rank = frame_.rank;
+  std::vector<WalkResult> results(tasks.size());
+  std::vector<Walker> window(std::min(kWindow, tasks.size()));
+  std::vector<Walker*> free_walkers, active;
+  for (Walker& walker : window) free_walkers.push_back(&walker);
+  std::size_t next_task = 0;
+  std::vector<float> directions;
+  std::vector<DirectionQuery> queries;
+  while (true) {
+    const std::size_t last_old = active.size();
+    while (!free_walkers.empty() && next_task < tasks.size() && !stop.stop_requested()) {
+      free_walkers.back()->task = next_task++;
+      active.push_back(free_walkers.back());
+      free_walkers.pop_back();
+    }
+    if (active.empty()) break;
+    const std::size_t groups = (active.size() + kWalksPerGroup - 1) / kWalksPerGroup;
+    std::vector<WalkCounters> group_counters(groups);
+    tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t group) {
+      std::vector<Walker*> members;
+      for (std::size_t row = group; row < active.size(); row += groups) {
+        Walker& walker = *active[row];
+        if (row >= last_old && !begin(tasks[walker.task], walker)) walker.state = Walker::State::kDone;
+        if (walker.state == Walker::State::kOnCore) members.push_back(&walker);
+      }
+      walk_on_core(members, group_counters[group]);
+      for (Walker* const walker : members) {
+        if (walker->state == Walker::State::kOnAll && !walker->walk.turns() &&
+            !walker->walk.refresh(points())) {
+          walker->state = Walker::State::kDone;
+        }
+      }
+    });
+    for (const WalkCounters& counters : group_counters) {
+      counters_.pivots += counters.pivots;
+      counters_.core_products += counters.core_products;
+    }
+
+    std::vector<Walker*> asking;
+    for (Walker* const walker : active) {
+      if (walker->state == Walker::State::kOnAll) asking.push_back(walker);
+    }
+    directions.resize(asking.size() * rank);
+    queries.resize(asking.size());
+    for (std::size_t row = 0; row < asking.size(); ++row) {
+      ask(*asking[row], all_.product_error(), directions.data() + row * rank);
+      queries[row] = std::move(asking[row]->query);
+    }
+    scan_directions_in_parallel(all_, directions, queries);
+    counters_.all_products += asking.size() * all_.size();
+    tbb::parallel_for(std::size_t{0}, asking.size(), [&](std::size_t row) {
+      asking[row]->query = std::move(queries[row]);
+      decide(*asking[row]);
+    });
+
+    std::vector<Walker*> rest;
+    for (Walker* const walker : active) {
+      for (const std::uint32_t id : walker->additions) add_to_core(id);
+      walker->additions.clear();
+      if (walker->state != Walker::State::kDone) {
+        rest.push_back(walker);
+        continue;
+      }
+      ++counters_.walks;
+      if (walker->result.end == WalkEnd::kOpen) ++counters_.open;
+      results[walker->task] = std::move(walker->result);
+      free_walkers.push_back(walker);
+    }
+    active = std::move(rest);
+  }
+  return results;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,115 @@
+#include "tools/largest_command.h"
+
+#include <memory>
+#include <string>
+
+#include "tools/command_options.h"
+#include "tools/largest_run.h"
+
+namespace ndhull {
+namespace {
+
+/// The options as they are written; `request` has the others.
+struct Arguments {
+  LargestRequest request;
+  std::string method, plane_kind;
+};
+
+void add_search_options(CLI::App& command, Arguments& arguments) {
+  LargestOptions& options = arguments.request.options;
+  command.add_option("-n", options.count, "facets wanted, the largest first; default 100")
+      ->type_name("N")
+      ->check(whole_number(1));
+  command.add_option("--min-area", options.min_area, "of these only facets at least so large")
+      ->type_name("A")
+      ->check(positive_number());
+  command
+      .add_option(
+          "--method", arguments.method,
+          "hull (build it), rays (sample and climb), or auto (default): the hull when it can be built")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"auto", "hull", "rays"}).description(""));
+  command
+      .add_option("--rays", options.rays,
+                  "shoot exactly so many rays; default: 2048 to 16384, until the largest are stable")
+      ->type_name("R")
+      ->check(whole_number(1, 0xFFFF'FFF0u));
+  command.add_option("--max-seconds", options.max_seconds, "limit: seconds of the search")
+      ->type_name("S")
+      ->check(positive_number());
+  command
+      .add_option("--max-facets", options.max_facets,
+                  "limit: simplices of a hull that is built; default with auto: 2500000")
+      ->type_name("N")
+      ->check(whole_number(1));
+  command.add_flag("--bounded", options.bounded, "add facets until the outer planes bound a region");
+  command
+      .add_option("--threads", options.threads,
+                  "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
+  command.add_option("--seed", options.seed, "of the rays; default 1")
+      ->type_name("S")
+      ->check(whole_number(0));
+}
+
+void add_output_options(CLI::App& command, Arguments& arguments) {
+  LargestRequest& request = arguments.request;
+  CLI::Option* const planes =
+      command
+          .add_option("--planes", request.planes_path, "write the facets' planes: .ine, .npy, or Qhull text")
+          ->type_name("FILE")
+          ->check(path_name());
+  command
+      .add_option("--plane-kind", arguments.plane_kind,
+                  "outer (no input point is above; default), mean, or inner (no vertex is below)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->needs(planes);
+  command
+      .add_option("--vertices", request.vertices_path,
+                  "write the indices of the facets' vertices: .npy or text")
+      ->type_name("FILE")
+      ->check(path_name());
+  CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
+  command.add_flag("--facet-list", request.facet_list, "put planes and vertices into the report")
+      ->needs(report);
+  command.add_flag("--verify", request.verify,
+                   "check, exactly, that no point is above an outer plane before anything is written");
+  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
+  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+}
+
+LargestRequest complete_request(const Arguments& arguments) {
+  LargestRequest request = arguments.request;
+  if (arguments.method == "hull") request.options.method = LargestMethod::kHull;
+  if (arguments.method == "rays") request.options.method = LargestMethod::kRays;
+  if (arguments.plane_kind == "mean") request.plane_kind = PlaneKind::kMean;
+  if (arguments.plane_kind == "inner") request.plane_kind = PlaneKind::kInner;
+  return request;
+}
+
+}  // namespace
+
+void add_largest_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command =
+      app.add_subcommand("largest", "The largest facets, also of a hull too big to build; prints a summary.");
+  command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  add_search_options(*command, *arguments);
+  add_output_options(*command, *arguments);
+  command->footer(
+      "Every facet given is a facet of the hull, its outer plane certified. Rays may miss larger ones: the\n"
+      "report says how large a share of the directions an unseen facet may have, and estimates the recall.\n"
+      "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
+      "written.\n" +
+      example("ndhull largest points.npy -n 100 --planes outer.npy --report report.json"));
+  command->callback([arguments, &exit_code] { exit_code = run_largest(complete_request(*arguments)); });
+}
+
+}  // namespace ndhull

@@ -1,0 +1,163 @@
+// Steps in order: read, search and certify (the library), verify, write. Nothing is opened for writing before
+// the input is known to be good, and every file appears whole or not at all.
+#include "tools/largest_run.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/plane_value.h"
+#include "tools/index_writer.h"
+#include "tools/interrupt.h"
+#include "tools/named_outputs.h"
+#include "tools/output_file.h"
+#include "tools/plane_writer.h"
+#include "tools/point_reader.h"
+#include "tools/progress_line.h"
+
+namespace ndhull {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kVerificationFailedExitCode = 2;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
+  std::vector<NamedOutput> outputs;
+  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path});
+  if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
+  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  return outputs;
+}
+
+std::vector<std::pair<std::string, OptionValue>> program_options(const LargestRequest& request) {
+  return {{"planes", path_or_null(request.planes_path)},
+          {"plane_kind", std::string(to_string(request.plane_kind))},
+          {"vertices", path_or_null(request.vertices_path)},
+          {"report", path_or_null(request.report_path)},
+          {"facet_list", request.facet_list},
+          {"verify", request.verify},
+          {"progress", request.progress},
+          {"quiet", request.quiet}};
+}
+
+/// Rows normal, offset of one kind of planes of all facets.
+std::vector<double> plane_rows(const LargestFacets& found, std::span<const double> largest, PlaneKind kind) {
+  std::vector<double> rows;
+  for (const LargestFacet& facet : found.facets) {
+    rows.insert(rows.end(), facet.normal.begin(), facet.normal.end());
+    CentredPlane plane{facet.normal, found.reference, facet.centred_offset, 0.0, 1.0};
+    double offset = facet.offset;
+    if (kind == PlaneKind::kOuter) {
+      plane.claimed = facet.outer_offset;
+      offset = written_offset(plane, largest, 1.0);
+    } else if (kind == PlaneKind::kInner) {
+      plane.claimed = facet.inner_offset;
+      offset = written_offset(plane, largest, -1.0);
+    }
+    if (!std::isfinite(offset)) {
+      throw Error(ErrorCode::kNotFinite,
+                  "plane of a facet: found an offset beyond the range of doubles, expected a finite one; "
+                  "divide the coordinates by a power of two");
+    }
+    rows.push_back(offset);
+  }
+  return rows;
+}
+
+void write_results(const LargestRequest& request, const LargestFacets& found,
+                   std::span<const double> largest) {
+  if (!request.planes_path.empty()) {
+    const std::vector<double> rows = plane_rows(found, largest, request.plane_kind);
+    const std::size_t columns = found.dimension + 1;
+    write_planes(request.planes_path, found.facets.size(), found.dimension,
+                 [&rows, columns](std::size_t index, double* row) {
+                   std::copy_n(rows.data() + index * columns, columns, row);
+                 });
+  }
+  if (!request.vertices_path.empty()) {
+    std::vector<PointId> vertices;
+    for (const LargestFacet& facet : found.facets) {
+      vertices.insert(vertices.end(), facet.vertices.begin(), facet.vertices.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    write_indices(request.vertices_path, vertices);
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+int run_largest(const LargestRequest& request) {
+  const Clock::time_point start = Clock::now();
+  const std::vector<NamedOutput> outputs = outputs_of(request);
+  check_outputs_differ(outputs);
+  Interrupt interrupt;
+  ProgressLine progress(request.progress, request.quiet);
+
+  progress.show_phase("read");
+  const PointFile points = read_points(request.points_path);
+  check_outputs_are_writable(outputs);
+  LargestReportContext context{.input_path = request.points_path,
+                               .options = request.options,
+                               .program_options = program_options(request),
+                               .facet_list = request.facet_list};
+  const tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
+                                                           : static_cast<int>(request.options.threads));
+  context.options.threads = static_cast<unsigned>(arena.max_concurrency());
+  context.options.stop = interrupt.token();
+  if (progress.is_shown()) {
+    context.options.progress = [&progress](std::string_view words) { progress.show_phase(words); };
+  }
+  context.read_seconds = seconds_since(start);
+
+  interrupt.arm();
+  const LargestFacets found = largest_facets(points.view(), context.options);
+
+  const std::vector<double> largest = largest_coordinates(points.view());
+  std::optional<PlaneCheck> verification;
+  if (request.verify) {
+    progress.show_phase("verify");
+    const Clock::time_point verify_start = Clock::now();
+    verification =
+        check_planes(points.view(), plane_rows(found, largest, PlaneKind::kOuter), request.options.threads);
+    context.verify_seconds = seconds_since(verify_start);
+    context.verification = &*verification;
+    if (verification->above > 0) {
+      progress.clear();
+      fmt::print(stderr, "ndhull: verify: point {} is {:.17g} above outer plane {}\n",
+                 verification->worst_point.value, verification->worst_distance, verification->worst_plane);
+      return kVerificationFailedExitCode;
+    }
+  }
+
+  progress.show_phase("write");
+  const Clock::time_point write_start = Clock::now();
+  write_results(request, found, largest);
+  context.write_seconds = seconds_since(write_start);
+  context.total_seconds = seconds_since(start);
+  context.peak_memory_bytes = peak_memory_bytes();
+  progress.clear();
+  if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
+  if (!request.has_output() && !request.quiet) write_text("-", largest_summary(found, context));
+  return interrupt.requested() ? kInterruptedExitCode : 0;
+}
+
+}  // namespace ndhull

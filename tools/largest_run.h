@@ -1,0 +1,40 @@
+// What `ndhull largest` does once its command line is understood.
+#pragma once
+
+#include <string>
+
+#include "approx/largest_facets.h"
+#include "approx/largest_report.h"
+#include "approx/written_planes.h"
+
+namespace ndhull {
+
+/// The command line of `ndhull largest`. Paths are empty when the output is not wanted; "-" is standard
+/// output.
+struct LargestRequest {
+  std::string points_path;
+  LargestOptions options;
+  std::string planes_path;
+  PlaneKind plane_kind = PlaneKind::kOuter;
+  std::string vertices_path;
+  std::string report_path;
+  bool facet_list = false;
+  bool verify = false;
+  bool progress = false;
+  bool quiet = false;
+
+  bool has_output() const { return !planes_path.empty() || !vertices_path.empty() || !report_path.empty(); }
+};
+
+/// Reads the points, finds their largest facets, verifies their outer planes if asked, and writes what was
+/// asked for, the report last; without any output prints a summary.
+///
+/// Returns  0; 2 when a point is above an outer plane as written, which is said on standard error and nothing
+///          is written; 130 when Ctrl-C came: what there is was written.
+/// Throws   Error as read_points, largest_facets and the writers do; kUsage, kFileWrite as run_hull.
+int run_largest(const LargestRequest& request);
+
+/// The summary, some ten lines.
+std::string largest_summary(const LargestFacets& found, const LargestReportContext& context);
+
+}  // namespace ndhull

@@ -1,0 +1,28 @@
+// The outputs that a command line asks for, looked at before anything is computed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "approx/report.h"
+
+namespace ndhull {
+
+/// An output and the option that asks for it; "-" is standard output.
+struct NamedOutput {
+  std::string_view option;
+  std::string path;
+};
+
+/// Throws Error kUsage when two outputs want the same file or standard output.
+void check_outputs_differ(const std::vector<NamedOutput>& outputs);
+
+/// Says that a file cannot be written before the time for the result is spent, not after it.
+/// Throws Error kFileWrite.
+void check_outputs_are_writable(const std::vector<NamedOutput>& outputs);
+
+/// A path as it is reported: null when the output is not wanted.
+OptionValue path_or_null(const std::string& path);
+
+}  // namespace ndhull
