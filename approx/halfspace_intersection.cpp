@@ -7,6 +7,8 @@
 //   approx/polytope_measure    volume, areas
 #include "approx/halfspace_intersection.h"
 
+#include <tbb/task_arena.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <chrono>
@@ -189,7 +191,9 @@ std::string_view to_string(IntersectionKind kind) {
 
 HalfspaceIntersection intersect_halfspaces(const PointView& halfspaces, const IntersectionOptions& options) {
   if (halfspaces.rows == 0) throw Error(ErrorCode::kEmptyInput, "found no halfspaces, expected one or more");
-  return Intersector(halfspaces, options).run();
+  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
+                                             : static_cast<int>(options.threads));
+  return arena.execute([&] { return Intersector(halfspaces, options).run(); });
 }
 
 }  // namespace ndhull

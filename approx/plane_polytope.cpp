@@ -32,6 +32,10 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
   polytope.bounded = hull.rank == rank;
   if (!polytope.bounded) return polytope;
   polytope.vertices.resize(hull.facet_count() * rank);
+  for (IdRows* const rows : {&polytope.planes_of, &polytope.neighbours_of}) {
+    rows->begin.reserve(hull.facet_count() + 1);
+    rows->values.reserve(hull.facet_count() * rank);
+  }
   for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
     const FacetId facet{id};
     const double offset = hull.offset(facet);
@@ -46,6 +50,7 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
     append_row(polytope.neighbours_of, hull.neighbours_of(facet));
   }
   polytope.planes.reserve(hull.simplices.row_count * rank);
+  polytope.vertex_of.reserve(hull.simplices.row_count);
   for (std::uint32_t row = 0; row < hull.simplices.row_count; ++row) {
     const auto vertices = hull.simplices.vertices(SimplexId{row});
     for (const PointId id : vertices) polytope.planes.push_back(id.value);

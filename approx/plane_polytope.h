@@ -47,14 +47,14 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
 
 /// What the polytope measures.
 struct PolytopeMeasure {
-  double volume = 0.0;              ///< of dimension rank
-  double area = 0.0;                ///< of all facets, of dimension rank - 1
-  std::vector<double> facet_areas;  ///< one a plane; 0 for redundant ones
+  double volume = 0.0;  ///< of dimension rank
+  double area = 0.0;    ///< of all facets, of dimension rank - 1
 };
 
-/// Volume and facet areas.
+/// Volume and area.
 ///
-/// Method  The measure of a face is the sum over its own facets of height times measure, over its dimension,
+/// Method  Few vertices in which many planes meet: the hull of the vertices. Otherwise the measure of a face
+/// is the sum over its own facets of height times measure, over its dimension,
 ///         seen from one vertex of the face, so that no term is negative and nothing cancels. Faces are sets
 ///         of planes; each is computed once (Bueler, Enge, Fukuda. Exact volume computation for polytopes: a
 ///         practical study. Polytopes - Combinatorics and Computation, 2000).

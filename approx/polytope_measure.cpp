@@ -1,7 +1,14 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "approx/plane_polytope.h"
+#include "core/dimension_switch.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -26,59 +33,144 @@ struct FaceLevel {
   const std::uint32_t* row(std::size_t face) const { return planes.data() + face * width; }
 };
 
+/// A set of planes that is looked up: face `face` of the level below without its plane `left_out`.
+struct FaceKey {
+  std::uint64_t hash;
+  std::uint32_t face;
+  std::uint32_t left_out;
+};
+
 /// Sets of planes and their numbers, by open addressing.
 class FaceIndex {
  public:
-  explicit FaceIndex(FaceLevel& level) : level_(level), slots_(1024, 0) {}
+  FaceIndex(FaceLevel& level, std::size_t expected) : level_(level) {
+    std::size_t capacity = 1024;
+    while (capacity < 2 * expected) capacity *= 2;
+    slots_.resize(capacity);
+  }
 
-  /// The face with these planes; a new one when there is none. `hash` is the XOR of their mixed ids.
-  std::uint32_t find_or_add(const std::uint32_t* planes, std::uint64_t hash, std::uint32_t base) {
-    if (2 * level_.size() >= slots_.size()) grow();
-    std::size_t at = hash & (slots_.size() - 1);
-    for (; slots_[at] != 0; at = (at + 1) & (slots_.size() - 1)) {
-      const std::uint32_t face = slots_[at] - 1;
-      if (!std::equal(planes, planes + level_.width, level_.row(face))) continue;
+  /// Fetches what `find_or_add` reads first, and next.
+  void prefetch_slot(std::uint64_t hash) const { __builtin_prefetch(&slots_[place_of(hash)]); }
+  void prefetch_row(std::uint64_t hash) const {
+    const Slot& slot = slots_[place_of(hash)];
+    if (slot.face != 0) __builtin_prefetch(level_.row(slot.face - 1));
+  }
+
+  /// The face with the planes of row `row` but for one; a new one when there is none. `base` is a vertex of
+  /// it.
+  std::uint32_t find_or_add(const FaceKey& key, const std::uint32_t* row, std::uint32_t base) {
+    if (2 * (level_.size() + 1) >= slots_.size()) grow();
+    const auto tag = static_cast<std::uint32_t>(key.hash >> 32);
+    std::size_t at = place_of(key.hash);
+    for (; slots_[at].face != 0; at = (at + 1) & (slots_.size() - 1)) {
+      const std::uint32_t face = slots_[at].face - 1;
+      if (slots_[at].tag != tag || !is_row_without(level_.row(face), row, key.left_out)) continue;
       level_.base[face] = std::min(level_.base[face], base);
       return face;
     }
-    level_.planes.insert(level_.planes.end(), planes, planes + level_.width);
+    for (std::size_t k = 0; k <= level_.width; ++k) {
+      if (k != key.left_out) level_.planes.push_back(row[k]);
+    }
     level_.base.push_back(base);
-    hashes_.push_back(hash);
-    slots_[at] = static_cast<std::uint32_t>(level_.size());
-    return slots_[at] - 1;
+    hashes_.push_back(key.hash);
+    slots_[at] = {tag, static_cast<std::uint32_t>(level_.size())};
+    return slots_[at].face - 1;
   }
 
  private:
+  struct Slot {
+    std::uint32_t tag = 0;
+    std::uint32_t face = 0;  // + 1
+  };
+
+  std::size_t place_of(std::uint64_t hash) const { return hash & (slots_.size() - 1); }
+
+  bool is_row_without(const std::uint32_t* planes, const std::uint32_t* row, std::size_t left_out) const {
+    bool is_same = true;
+    for (std::size_t k = 0; k < level_.width; ++k) is_same &= planes[k] == row[k + (k >= left_out ? 1 : 0)];
+    return is_same;
+  }
+
   void grow() {
-    slots_.assign(slots_.size() * 4, 0);
+    slots_.assign(slots_.size() * 4, Slot());
     for (std::uint32_t face = 0; face < level_.size(); ++face) {
-      std::size_t at = hashes_[face] & (slots_.size() - 1);
-      while (slots_[at] != 0) at = (at + 1) & (slots_.size() - 1);
-      slots_[at] = face + 1;
+      std::size_t at = place_of(hashes_[face]);
+      while (slots_[at].face != 0) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = {static_cast<std::uint32_t>(hashes_[face] >> 32), face + 1};
     }
   }
 
   FaceLevel& level_;
-  std::vector<std::uint32_t> slots_;  // face + 1
+  std::vector<Slot> slots_;
   std::vector<std::uint64_t> hashes_;
+};
+
+/// Vertices that span a face, as orthonormal directions from the first of them.
+template <std::size_t D>
+class FaceFrame {
+ public:
+  explicit FaceFrame(const PlanePolytope& polytope) : polytope_(polytope) {}
+
+  void set(const std::uint32_t* corners, std::size_t count) {
+    origin_ = vertex(corners[0]);
+    directions_ = 0;
+    for (std::size_t k = 1; k < count; ++k) {
+      const double length = distance(corners[k]);
+      for (std::size_t i = 0; i < D; ++i) frame_[(k - 1) * D + i] = length > 0.0 ? rest_[i] / length : 0.0;
+      directions_ = k;
+    }
+  }
+
+  /// Of a vertex from the span. What is left after one subtraction is subtracted from once more when it is so
+  /// small that rounding shows (Giraud, Langou, Rozloznik. The loss of orthogonality in the Gram-Schmidt
+  /// orthogonalization process. 2005).
+  double distance(std::uint32_t id) {
+    for (std::size_t i = 0; i < D; ++i) rest_[i] = vertex(id)[i] - origin_[i];
+    const double before = length();
+    subtract_span();
+    const double once = length();
+    if (once > 0.5 * before) return once;
+    subtract_span();
+    return length();
+  }
+
+ private:
+  const double* vertex(std::uint32_t id) const { return polytope_.vertices.data() + id * D; }
+
+  double length() const {
+    double sum = 0.0;
+    for (const double value : rest_) sum += value * value;
+    return std::sqrt(sum);
+  }
+
+  void subtract_span() {
+    for (std::size_t j = 0; j < directions_; ++j) {
+      const double* const direction = frame_.data() + j * D;
+      double dot = 0.0;
+      for (std::size_t i = 0; i < D; ++i) dot += direction[i] * rest_[i];
+      for (std::size_t i = 0; i < D; ++i) rest_[i] -= dot * direction[i];
+    }
+  }
+
+  const PlanePolytope& polytope_;
+  std::size_t directions_ = 0;
+  const double* origin_ = nullptr;
+  std::array<double, D * D> frame_{};
+  std::array<double, D> rest_{};
 };
 
 class Measurer {
  public:
   Measurer(const PlanesAboutOrigin& planes, const PlanePolytope& polytope)
-      : planes_(planes), polytope_(polytope), rank_(planes.rank), frame_(rank_ * rank_), rest_(rank_) {}
+      : planes_(planes), polytope_(polytope), rank_(planes.rank) {
+    for (std::size_t id = 0; id < planes.heights.size(); ++id) plane_hash_.push_back(mixed(id));
+  }
 
   PolytopeMeasure measure() {
     PolytopeMeasure result;
-    result.facet_areas.assign(planes_.heights.size(), 0.0);
     FaceLevel level = vertices();
     while (level.width > 0) {
-      if (level.width == 1) {
-        for (std::size_t face = 0; face < level.size(); ++face) {
-          result.facet_areas[level.planes[face]] = level.measure[face];
-          result.area += level.measure[face];
-        }
-      }
+      if (level.width == 1) result.area = std::accumulate(level.measure.begin(), level.measure.end(), 0.0);
       level = next(level);
     }
     result.volume = level.measure.empty() ? 0.0 : level.measure[0];
@@ -101,52 +193,76 @@ class Measurer {
   }
 
   /// The faces one dimension higher, not measured yet, and the number of each face's faces above it: row f
-  /// without plane k is parents[f * width + k].
+  /// without plane k is parents[f * width + k]. Some keys at a time, so that memory is fetched ahead.
   FaceLevel faces_above(const FaceLevel& level, std::vector<std::uint32_t>& parents) const {
+    constexpr std::size_t kFacesAhead = 16;
     FaceLevel higher;
     higher.width = level.width - 1;
-    FaceIndex index(higher);
+    FaceIndex index(higher, level.size());
     parents.resize(level.size() * level.width);
-    std::vector<std::uint32_t> rest(level.width);
-    for (std::size_t face = 0; face < level.size(); ++face) {
-      const std::uint32_t* const row = level.row(face);
-      std::uint64_t all = 0;
-      for (std::size_t k = 0; k < level.width; ++k) all ^= mixed(row[k]);
-      for (std::size_t k = 0; k < level.width; ++k) {
-        std::copy(row, row + k, rest.begin());
-        std::copy(row + k + 1, row + level.width, rest.begin() + static_cast<std::ptrdiff_t>(k));
-        parents[face * level.width + k] =
-            index.find_or_add(rest.data(), all ^ mixed(row[k]), level.base[face]);
+    std::vector<FaceKey> keys;
+    for (std::size_t begin = 0; begin < level.size(); begin += kFacesAhead) {
+      keys.clear();
+      for (std::size_t face = begin; face < std::min(begin + kFacesAhead, level.size()); ++face) {
+        const std::uint32_t* const row = level.row(face);
+        std::uint64_t all = 0;
+        for (std::size_t k = 0; k < level.width; ++k) all ^= plane_hash_[row[k]];
+        for (std::size_t k = 0; k < level.width; ++k) {
+          keys.push_back(
+              {all ^ plane_hash_[row[k]], static_cast<std::uint32_t>(face), static_cast<std::uint32_t>(k)});
+          index.prefetch_slot(keys.back().hash);
+        }
+      }
+      for (const FaceKey& key : keys) index.prefetch_row(key.hash);
+      for (const FaceKey& key : keys) {
+        parents[key.face * level.width + key.left_out] =
+            index.find_or_add(key, level.row(key.face), level.base[key.face]);
       }
     }
     return higher;
   }
 
-  FaceLevel next(const FaceLevel& level) {
+  /// Terms of the faces' measures in those above: height times measure over dimension, 0 for a face that has
+  /// the other's base among its vertices: seen from there it has no height.
+  template <std::size_t D>
+  std::vector<double> terms_of(const FaceLevel& level, const FaceLevel& higher,
+                               const std::vector<std::uint32_t>& parents) const {
+    const std::size_t dimension = rank_ - higher.width;
+    std::vector<double> terms(parents.size(), 0.0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level.size(), 1024), [&](const auto& range) {
+      FaceFrame<D> frame(polytope_);
+      for (std::size_t face = range.begin(); face != range.end(); ++face) {
+        if (level.measure[face] == 0.0) continue;
+        bool is_set = false;
+        for (std::size_t k = face * level.width; k < (face + 1) * level.width; ++k) {
+          const std::uint32_t base = higher.base[parents[k]];
+          if (base == level.base[face]) continue;
+          if (!is_set) frame.set(level.corners.data() + face * dimension, dimension);
+          is_set = true;
+          terms[k] = level.measure[face] * frame.distance(base) / static_cast<double>(dimension);
+        }
+      }
+    });
+    return terms;
+  }
+
+  FaceLevel next(const FaceLevel& level) const {
     std::vector<std::uint32_t> parents;
     FaceLevel higher = faces_above(level, parents);
     const std::size_t dimension = rank_ - higher.width;
-    const double share = 1.0 / static_cast<double>(dimension);
+    const std::vector<double> terms =
+        call_with_dimension<1, kMaxRank>(rank_, [&](auto d) { return terms_of<d>(level, higher, parents); });
     higher.measure.assign(higher.size(), 0.0);
     std::vector<double> largest_term(higher.size(), 0.0);
     std::vector<std::uint32_t> largest_facet(higher.size(), 0);
-    for (std::uint32_t face = 0; face < level.size(); ++face) {
-      const std::uint32_t* const own_parents = parents.data() + std::size_t{face} * level.width;
-      // Seen from a vertex of its own a face has no height.
-      const auto adds_to = [&](std::uint32_t parent) { return higher.base[parent] != level.base[face]; };
-      if (level.measure[face] == 0.0 || std::none_of(own_parents, own_parents + level.width, adds_to))
-        continue;
-      make_frame(level.corners.data() + face * dimension, dimension);
-      for (const std::uint32_t* parent = own_parents; parent != own_parents + level.width; ++parent) {
-        if (!adds_to(*parent)) continue;
-        const double height = distance_from_frame(higher.base[*parent], dimension - 1);
-        const double term = share * level.measure[face] * height;
-        higher.measure[*parent] += term;
-        if (term <= largest_term[*parent]) continue;
-        largest_term[*parent] = term;
-        largest_facet[*parent] = face;
-      }
+    for (std::size_t k = 0; k < parents.size(); ++k) {
+      const std::uint32_t parent = parents[k];
+      higher.measure[parent] += terms[k];
+      if (terms[k] <= largest_term[parent]) continue;
+      largest_term[parent] = terms[k];
+      largest_facet[parent] = static_cast<std::uint32_t>(k / level.width);
     }
+    higher.corners.reserve(higher.size() * (dimension + 1));
     for (std::size_t face = 0; face < higher.size(); ++face) {
       higher.corners.push_back(higher.base[face]);
       const auto below = level.corners.begin() + static_cast<std::ptrdiff_t>(largest_facet[face] * dimension);
@@ -155,50 +271,31 @@ class Measurer {
     return higher;
   }
 
-  const double* vertex(std::uint32_t id) const { return polytope_.vertices.data() + id * rank_; }
-
-  /// What is left of `rest_` outside the first `count` directions of the frame. Twice is enough (Giraud,
-  /// Langou, Rozloznik. The loss of orthogonality in the Gram-Schmidt orthogonalization process. 2005).
-  double length_outside(std::size_t count) {
-    double length_sq = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {
-      for (std::size_t j = 0; j < count; ++j) {
-        const double* const direction = frame_.data() + j * rank_;
-        double dot = 0.0;
-        for (std::size_t i = 0; i < rank_; ++i) dot += direction[i] * rest_[i];
-        for (std::size_t i = 0; i < rank_; ++i) rest_[i] -= dot * direction[i];
-      }
-    }
-    for (const double value : rest_) length_sq += value * value;
-    return std::sqrt(length_sq);
-  }
-
-  double distance_from_frame(std::uint32_t id, std::size_t directions) {
-    for (std::size_t i = 0; i < rank_; ++i) rest_[i] = vertex(id)[i] - origin_[i];
-    return length_outside(directions);
-  }
-
-  /// Orthonormal directions of the span of `count` vertices.
-  void make_frame(const std::uint32_t* corners, std::size_t count) {
-    origin_ = vertex(corners[0]);
-    for (std::size_t k = 1; k < count; ++k) {
-      const double length = distance_from_frame(corners[k], k - 1);
-      for (std::size_t i = 0; i < rank_; ++i)
-        frame_[(k - 1) * rank_ + i] = length > 0.0 ? rest_[i] / length : 0.0;
-    }
-  }
-
   const PlanesAboutOrigin& planes_;
   const PlanePolytope& polytope_;
   std::size_t rank_;
-  const double* origin_ = nullptr;
-  std::vector<double> frame_, rest_;
+  std::vector<std::uint64_t> plane_hash_;
 };
+
+/// Simplices a vertex from which on the hull of the vertices is tried first.
+constexpr std::size_t kManySimplices = 4;
+
+/// Of the hull of the vertices, when that is no larger than the dual hull.
+std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePolytope& polytope) {
+  const std::size_t vertices = polytope.vertex_count(rank), simplices = polytope.vertex_of.size();
+  if (rank < 2 || simplices < kManySimplices * vertices) return std::nullopt;
+  HullOptions options;
+  options.limits.max_facets = simplices;
+  const Hull hull = convex_hull(PointView::row_major(polytope.vertices.data(), vertices, rank), options);
+  if (hull.status != HullStatus::kComplete || hull.rank < rank) return std::nullopt;
+  return PolytopeMeasure{hull.volume, hull.area};
+}
 
 }  // namespace
 
 PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope) {
   NDHULL_CHECK(polytope.bounded);
+  if (const auto measure = measure_by_hull(planes.rank, polytope)) return *measure;
   return Measurer(planes, polytope).measure();
 }
 

@@ -43,10 +43,14 @@ class VertexPlacer {
     for (const std::uint32_t plane : polytope_.non_redundant)
       result_.non_redundant.push_back(region_.planes[plane]);
     place_all();
-    cluster_of_.resize(count_);
-    std::iota(cluster_of_.begin(), cluster_of_.end(), 0U);
-    if (needs_merging()) merge_close_vertices();
-    list_clusters();
+    if (needs_merging()) {
+      cluster_of_.resize(count_);
+      std::iota(cluster_of_.begin(), cluster_of_.end(), 0U);
+      merge_close_vertices();
+      list_clusters();
+    } else {
+      list_all();
+    }
     for (std::size_t cluster = 0; cluster + 1 < result_.halfspaces.begin.size(); ++cluster) refine(cluster);
     return std::move(result_);
   }
@@ -142,6 +146,20 @@ class VertexPlacer {
         }
       }
     }
+  }
+
+  /// Every vertex by itself.
+  void list_all() {
+    result_.coordinates = std::move(positions_);
+    result_.halfspaces = polytope_.planes_of;
+    result_.neighbours = polytope_.neighbours_of;
+    for (IdRows* const rows : {&result_.halfspaces, &result_.neighbours}) {
+      for (std::size_t row = 0; row < count_; ++row) {
+        const auto begin = rows->values.begin();
+        std::sort(begin + rows->begin[row], begin + rows->begin[row + 1]);
+      }
+    }
+    for (std::uint32_t& id : result_.halfspaces.values) id = region_.planes[id];  // keeps the order
   }
 
   /// Vertices in the order of their seeds, with the halfspaces and neighbours of all that was taken in.
