@@ -247,9 +247,7 @@ class RegionFinder {
     double total = 0.0;
     for (const WeightedHalfspace& term : region_.proof) total += term.weight;
     for (WeightedHalfspace& term : region_.proof) {
-      term.weight /= total;  // on unit normals; in the end on normals as given
-      region_.gap += term.weight * halfspaces_.distance(term.halfspace, as_span(point_));
-      term.weight /= halfspaces_.length(term.halfspace);
+      term.weight /= total * halfspaces_.length(term.halfspace);  // from unit normals to those given
     }
     std::sort(region_.proof.begin(), region_.proof.end(),
               [](const auto& a, const auto& b) { return a.halfspace < b.halfspace; });

@@ -23,9 +23,8 @@ struct WeightedHalfspace {
 struct HalfspaceRegion {
   bool empty = false;
   /// Empty: weights >= 0 with sum weight a = 0 (to rounding) and sum weight b > 0, scaled so that
-  /// sum weight |a| = 1: then `gap` = sum weight b is by how much the halfspaces miss each other.
+  /// sum weight |a| = 1.
   std::vector<WeightedHalfspace> proof;
-  double gap = 0.0;
 
   std::vector<double> point;  ///< strictly inside all `planes`, in the subspace up to rounding
   /// [distance] Of the largest ball in the subspace about a point of it; infinite when there is no largest
@@ -40,9 +39,12 @@ struct HalfspaceRegion {
 /// planes that hold it tight are equations, and the search goes on in the subspace they leave.
 ///
 /// Rounding  a radius within some units in the last place of the planes that decide it counts as 0.
-/// Throws    Error kUsage when `interior_point` is not strictly inside: names the halfspace it is furthest
+/// Throws    Error kBadHalfspace when `interior_point` is not strictly inside: names the halfspace it is
+/// furthest
 ///           outside of, and the distance.
-/// Cost      2 linear programs with rank + 1 rows a stage; one stage when there is an interior.
+/// Cost      3 linear programs with rank + 1 rows a stage, of which the later ones start at the optimum of
+/// the
+///           first; one stage when there is an interior.
 /// Source    Boyd, Vandenberghe. Convex Optimization, sec. 8.5.1 (Chebyshev centre).
 HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
                             const std::optional<std::vector<double>>& interior_point);

@@ -54,12 +54,13 @@ struct PolytopeMeasure {
 /// Volume and area.
 ///
 /// Method  Few vertices in which many planes meet: the hull of the vertices. Otherwise the measure of a face
-/// is the sum over its own facets of height times measure, over its dimension,
-///         seen from one vertex of the face, so that no term is negative and nothing cancels. Faces are sets
-///         of planes; each is computed once (Bueler, Enge, Fukuda. Exact volume computation for polytopes: a
-///         practical study. Polytopes - Combinatorics and Computation, 2000).
+///         is the sum over its own facets of height times measure, over its dimension, seen from one vertex
+///         of the face, so that no term is negative and nothing cancels. Faces are sets of planes; each is
+///         computed once (Bueler, Enge, Fukuda. Exact volume computation for polytopes: a practical study.
+///         Polytopes - Combinatorics and Computation, 2000).
 /// Error   2e-13 relative was the largest seen on polytopes whose volume is known.
-/// Cost    time and memory by the faces of all dimensions: 2^rank a simplex at most.
+/// Cost    time and memory by the faces of all dimensions, 2^rank a simplex at most: about 7 microseconds a
+///         vertex in 6-d, 25 in 8-d.
 PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope);
 
 }  // namespace ndhull

@@ -23,8 +23,7 @@ struct PolytopeVertices {
 /// Places the vertices of `polytope`, which is stated about `centre` in coordinates of the region's subspace.
 ///
 /// Merging   Data far from the origin have planes whose own rounding moves them by more than coplanar merging
-/// of
-///           the dual allows for; a vertex from which all planes of a neighbour are within that rounding
+///           of the dual allows for; a vertex from which all planes of a neighbour are within that rounding
 ///           takes the neighbour in. Best determined vertices first, so that they take in the others.
 /// Refining  where a vertex is off one of its planes by more than their rounding, least squares on distances
 ///           summed in twice the precision.

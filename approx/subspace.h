@@ -11,8 +11,8 @@ namespace ndhull {
 /// when there are no equations.
 ///
 /// Shapes  equations: rows of dimension + 1 numbers (normal, offset), independent, as
-/// Hull::subspace_equations. Source  Golub, Van Loan. Matrix Computations, 4th ed., sec. 5.2 (Householder
-/// QR).
+///         Hull::subspace_equations.
+/// Source  Golub, Van Loan. Matrix Computations, 4th ed., sec. 5.2 (Householder QR).
 Eigen::MatrixXd subspace_directions(std::size_t dimension, std::span<const double> equations);
 
 }  // namespace ndhull

@@ -12,6 +12,7 @@
 
 #include "approx/report.h"
 #include "core/error.h"
+#include "tools/contains_command.h"
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
 #include "tools/largest_command.h"
@@ -69,6 +70,7 @@ int run(const std::vector<std::string>& arguments) {
   // One line a command; the order is that of --help.
   ndhull::add_hull_command(app, exit_code);
   ndhull::add_intersect_command(app, exit_code);
+  ndhull::add_contains_command(app);
   ndhull::add_largest_command(app, exit_code);
   ndhull::add_generate_command(app);
   ndhull::add_rbox_command(app);

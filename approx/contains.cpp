@@ -1,0 +1,122 @@
+// Blocked: each block of queries stays in registers and cache while blocks of planes stream by; the block of
+// the largest product is remembered and searched at the end.
+#include "approx/contains.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "approx/halfspace_set.h"
+#include "core/error.h"
+#include "core/plane_kernels.h"
+#include "core/plane_value.h"
+
+namespace ndhull {
+namespace {
+
+constexpr std::size_t kQueryBlock = 1024;
+constexpr std::size_t kPlaneBlock = 256;
+
+class Comparer {
+ public:
+  Comparer(const PointView& queries, std::span<const double> planes)
+      : queries_(queries),
+        columns_(queries.dimension + 1),
+        halfspaces_(PointView::row_major(planes.data(), planes.size() / columns_, columns_)),
+        unit_rows_(planes.begin(), planes.end()) {
+    for (std::size_t plane = 0; plane < halfspaces_.count(); ++plane) {
+      double* const row = unit_rows_.data() + plane * columns_;
+      for (std::size_t k = 0; k < columns_; ++k) row[k] /= halfspaces_.length(plane);
+      largest_offset_ = std::max(largest_offset_, std::abs(row[columns_ - 1]));
+    }
+  }
+
+  /// Queries begin .. begin + out.size().
+  void compare(std::size_t begin, std::span<PlaneDistance> out) const {
+    std::vector<double> rows(out.size() * columns_, 1.0), best(out.size(), -HUGE_VAL), products(out.size());
+    std::vector<std::size_t> block_of(out.size(), 0);
+    for (std::size_t query = 0; query < out.size(); ++query)
+      queries_.copy_row(begin + query, rows.data() + query * columns_);
+    for (std::size_t first = 0; first < halfspaces_.count(); first += kPlaneBlock) {
+      const std::size_t used = std::min(kPlaneBlock, halfspaces_.count() - first);
+      max_dots(columns_, rows, {unit_rows_.data() + first * columns_, used * columns_}, products);
+      for (std::size_t query = 0; query < out.size(); ++query) {
+        if (!(products[query] > best[query])) continue;
+        best[query] = products[query];
+        block_of[query] = first;
+      }
+    }
+    for (std::size_t query = 0; query < out.size(); ++query) {
+      const double* const row = rows.data() + query * columns_;
+      const double roundoff = roundoff_of(row);
+      if (std::abs(best[query]) <= 2.0 * roundoff) {
+        out[query] = furthest(row, 0, halfspaces_.count(), best[query] - 2.0 * roundoff);
+      } else {
+        const std::size_t end = std::min(block_of[query] + kPlaneBlock, halfspaces_.count());
+        out[query] = furthest(row, block_of[query], end, best[query] - 2.0 * roundoff);
+      }
+    }
+  }
+
+ private:
+  /// Bound of the error of a product of unit row and query: gamma_{d+2} times the sizes of its terms, twice,
+  /// which covers the rounding of the unit rows too.
+  double roundoff_of(const double* row) const {
+    double size = largest_offset_;
+    for (std::size_t k = 0; k + 1 < columns_; ++k) size += std::abs(row[k]);
+    return static_cast<double>(columns_ + 3) * 0x1p-52 * size;
+  }
+
+  /// The largest distance among planes whose product is at least `least`, by values whose sign is exact.
+  PlaneDistance furthest(const double* query, std::size_t begin, std::size_t end, double least) const {
+    PlaneDistance found{-HUGE_VAL, static_cast<std::uint32_t>(begin)};
+    const std::span<const double> x{query, columns_ - 1};
+    for (std::size_t plane = begin; plane < end; ++plane) {
+      const double* const row = unit_rows_.data() + plane * columns_;
+      double product = 0.0;
+      for (std::size_t k = 0; k < columns_; ++k) product += row[k] * query[k];
+      if (product < least) continue;
+      const CentredPlane exact{
+          .normal = halfspaces_.normal(plane), .reference = {}, .offset = halfspaces_.offset(plane)};
+      const double distance =
+          plane_value(exact, x, DoubtfulSign::kExtendedThenExact) / halfspaces_.length(plane);
+      if (distance > found.distance) found = {distance, static_cast<std::uint32_t>(plane)};
+    }
+    return found;
+  }
+
+  const PointView& queries_;
+  std::size_t columns_;
+  HalfspaceSet halfspaces_;
+  std::vector<double> unit_rows_;
+  double largest_offset_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<PlaneDistance> distances_to_planes(const PointView& queries, std::span<const double> planes,
+                                               unsigned threads) {
+  if (planes.empty()) throw Error(ErrorCode::kEmptyInput, "found no planes, expected one or more");
+  if (planes.size() % (queries.dimension + 1) != 0) {
+    throw Error(ErrorCode::kUsage, "found " + std::to_string(planes.size()) +
+                                       " numbers of planes, expected rows of " +
+                                       std::to_string(queries.dimension + 1));
+  }
+  const Comparer comparer(queries, planes);
+  std::vector<PlaneDistance> distances(queries.rows);
+  const std::size_t blocks = (queries.rows + kQueryBlock - 1) / kQueryBlock;
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t begin = block * kQueryBlock;
+      const std::size_t used = std::min(kQueryBlock, queries.rows - begin);
+      comparer.compare(begin, {distances.data() + begin, used});
+    });
+  });
+  return distances;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""ndhull contains: lines and .npy agree with NumPy, answers with the width, refusals."""
+
+import numpy
+
+from program import fresh_folder, one_error_line, rbox, run, run_tests
+
+FOLDER = fresh_folder("contains")
+POINTS = rbox("300 s D4 t1", FOLDER / "points.npy")
+run("hull", FOLDER / "points.npy", "--planes", FOLDER / "planes.npy")
+PLANES = numpy.load(FOLDER / "planes.npy")
+QUERIES = rbox("2000 D4 t2", FOLDER / "queries.npy")
+
+
+def expected():
+    values = QUERIES @ PLANES[:, :4].T + PLANES[:, 4]
+    return values.max(axis=1), values.argmax(axis=1)
+
+
+def test_lines():
+    lines = run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy").stdout.splitlines()
+    distances, planes = expected()
+    assert len(lines) == len(QUERIES)
+    for line, distance, plane in zip(lines, distances, planes):
+        found = line.split()
+        assert abs(float(found[0]) - distance) < 1e-15 and int(found[1]) == plane
+        assert found[2] == ("outside" if distance > 0 else "inside")
+    assert 100 < sum(distances > 0) < 1900
+
+
+def test_npy_and_width():
+    run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--width", "0.05", "-o", FOLDER / "answers.npy")
+    answers = numpy.load(FOLDER / "answers.npy")
+    distances, planes = expected()
+    assert numpy.allclose(answers[:, 0], distances, atol=1e-15) and (answers[:, 1] == planes).all()
+    wanted = numpy.where(distances > 0, 1, numpy.where(distances > -0.05, 0, -1))
+    assert (answers[:, 2] == wanted).all() and len(set(wanted)) == 3
+
+
+def test_summary():
+    text = run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--summary").stdout
+    distances, _ = expected()
+    assert text.startswith(f"queries 2000: outside {sum(distances > 0)}, within the width 0, inside ")
+    assert f"furthest: query {distances.argmax()} plane" in text
+
+
+def test_the_input_is_not_outside():
+    # Every point is a vertex: below the planes by roundoff.
+    run("contains", FOLDER / "planes.npy", FOLDER / "points.npy", "--width", "1e-12", "-o", FOLDER / "own.npy")
+    assert (numpy.load(FOLDER / "own.npy")[:, 2] == 0).all()
+
+
+def test_refusals():
+    rbox("10 D3", FOLDER / "low.npy")
+    one_error_line(run("contains", FOLDER / "planes.npy", FOLDER / "low.npy", exit_code=1), "usage")
+    one_error_line(run("contains", "-", "-", exit_code=1), "usage")
+    one_error_line(run("contains", FOLDER / "planes.npy", FOLDER / "none.npy", exit_code=1), "file-missing")
+
+
+run_tests(globals())

@@ -1,0 +1,137 @@
+#include "tools/contains_command.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "approx/contains.h"
+#include "core/error.h"
+#include "tools/command_options.h"
+#include "tools/file_bytes.h"
+#include "tools/halfspace_reader.h"
+#include "tools/npy_header.h"
+#include "tools/output_file.h"
+#include "tools/point_reader.h"
+
+namespace ndhull {
+namespace {
+
+struct Arguments {
+  std::string planes, queries;
+  std::string output = "-";
+  double width = 0.0;
+  unsigned threads = 0;
+  bool summary = false;
+};
+
+std::string_view to_string(Membership membership) {
+  switch (membership) {
+    case Membership::kOutside: return "outside";
+    case Membership::kWithinWidth: return "within-width";
+    case Membership::kInside: return "inside";
+  }
+  return "unknown";
+}
+
+/// .npy: rows distance, plane, and 1 outside, 0 within the width, -1 inside; text: one line a query.
+void write_distances(const std::string& path, const std::vector<PlaneDistance>& distances, double width) {
+  OutputFile file(path);
+  if (extension_of(path) == "npy") {
+    file.write(make_npy_header("<f8", {distances.size(), 3}));
+    for (const PlaneDistance& query : distances) {
+      const double answer = 1.0 - static_cast<double>(membership_of(query.distance, width));
+      const std::array<double, 3> row{query.distance, static_cast<double>(query.plane), answer};
+      file.write({reinterpret_cast<const char*>(row.data()), sizeof(row)});
+    }
+  } else {
+    for (const PlaneDistance& query : distances) {
+      file.print("{} {} {}\n", query.distance, query.plane, to_string(membership_of(query.distance, width)));
+    }
+  }
+  file.commit();
+}
+
+void write_summary(const std::vector<PlaneDistance>& distances, double width) {
+  std::array<std::size_t, 3> counts{};
+  std::size_t furthest = 0;
+  for (std::size_t query = 0; query < distances.size(); ++query) {
+    ++counts[static_cast<std::size_t>(membership_of(distances[query].distance, width))];
+    if (distances[query].distance > distances[furthest].distance) furthest = query;
+  }
+  fmt::print("queries {}: outside {}, within the width {}, inside {}\n", distances.size(), counts[0],
+             counts[1], counts[2]);
+  fmt::print("furthest: query {} plane {} distance {}\n", furthest, distances[furthest].plane,
+             distances[furthest].distance);
+}
+
+void run_contains(const Arguments& arguments) {
+  if (arguments.planes == "-" && arguments.queries == "-") {
+    throw Error(ErrorCode::kUsage,
+                "contains: found - for both, expected one of them in a file: standard input is read once");
+  }
+  const HalfspaceFile planes = read_halfspaces(arguments.planes);
+  const PointFile queries = read_points(arguments.queries);
+  if (planes.dimension != queries.view().dimension) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("{}: found planes in {}-d, expected {}-d as the queries of {}", planes.path,
+                            planes.dimension, queries.view().dimension, queries.path));
+  }
+  const std::vector<PlaneDistance> distances =
+      distances_to_planes(queries.view(), planes.rows, arguments.threads);
+  if (arguments.summary) {
+    write_summary(distances, arguments.width);
+  } else {
+    write_distances(arguments.output, distances, arguments.width);
+  }
+}
+
+}  // namespace
+
+void add_contains_command(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = app.add_subcommand(
+      "contains",
+      "Signed distances of points from outer planes: positive is outside, and which plane says so.");
+  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or - for standard input")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  command->add_option("QUERIES", arguments->queries, "points: a file, or -")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  CLI::Option* const output =
+      command
+          ->add_option(
+              "-o,--output", arguments->output,
+              "where to; default standard output: a line \"distance plane answer\" for each query; .npy: "
+              "rows distance, plane, answer (1 outside, 0 within the width, -1 inside)")
+          ->type_name("FILE")
+          ->check(path_name());
+  command
+      ->add_option(
+          "--width", arguments->width,
+          "of the hull's widest facet (max_facet_width in its report): less far below an outer plane "
+          "the answer is \"within-width\"; default 0")
+      ->type_name("W")
+      ->check(positive_number());
+  command->add_flag("--summary", arguments->summary, "print counts and the furthest query only")
+      ->excludes(output);
+  command
+      ->add_option("--threads", arguments->threads,
+                   "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
+  command->footer(
+      "Planes count from 0 in the order of their file. Signs are exact: a query on a plane is not "
+      "outside.\n" +
+      example(
+          "ndhull hull points.npy --planes outer.npy && ndhull contains outer.npy new.npy -o answers.npy"));
+  command->callback([arguments] { run_contains(*arguments); });
+}
+
+}  // namespace ndhull
