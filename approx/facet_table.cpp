@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "approx/frame_planes.h"
+#include "core/highest_dots.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -98,10 +99,18 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
   const std::span<double> highest(table.outer.data(), count);
   // Facets are independent: the result does not depend on how they are shared out.
   constexpr std::size_t kFacetsAtATime = 4096;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kFacetsAtATime), [&](const auto& facets) {
-    max_dots(dimension, normals.subspan(facets.begin() * dimension, facets.size() * dimension), points.rows,
-             highest.subspan(facets.begin(), facets.size()));
-  });
+  constexpr std::size_t kFewFacets = 256;  // grouping the points costs more than it saves
+  const PointGroups groups(dimension, points.rows, count < kFewFacets);
+  const auto find_highest = [&](std::size_t first, std::size_t last, std::size_t own_count) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kFacetsAtATime), [&](const auto& facets) {
+      const std::size_t begin = facets.begin(), size = facets.size();
+      highest_dots(groups, normals.subspan(begin * dimension, size * dimension),
+                   {low.subspan(begin, size), high.subspan(begin, size), own_count},
+                   highest.subspan(begin, size));
+    });
+  };
+  find_highest(0, layout.simplicial, frame.rank);
+  find_highest(layout.simplicial, count, 0);
 
   const double volume_per_determinant =
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));

@@ -15,7 +15,9 @@ namespace ndhull {
 /// Shapes  normals: facets x dimension; points: any number of rows x dimension; max_dot: one a facet.
 /// Error   each dot product is a chain of fused multiply-adds: at most gamma_dimension sum |n_k x_k|
 ///         (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5).
-/// Cost    facets x points x dimension fused multiply-adds, at close to the machine's peak.
+/// Cost    facets x points x dimension fused multiply-adds, at close to the machine's peak. Where the facets'
+/// own
+///         vertices are known, core/highest_dots.h needs less.
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot);
 

@@ -1,0 +1,121 @@
+#include "core/highest_dots.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace ndhull {
+namespace {
+
+struct Products {
+  std::size_t dimension;
+  std::vector<double> points, normals;
+};
+
+double dot(const double* a, const double* b, std::size_t dimension) {
+  double sum = a[0] * b[0];
+  for (std::size_t k = 1; k < dimension; ++k) sum = std::fma(a[k], b[k], sum);
+  return sum;
+}
+
+/// Points on a sphere of radius 1, facets through `dimension` of them only in name: the normals are random,
+/// the "own vertices" the highest points along them. `column_scale` multiplies column k by its k-th power.
+Products sphere(std::size_t dimension, std::size_t count, std::size_t facets, double column_scale) {
+  std::mt19937_64 random(dimension * 1000 + count);
+  std::normal_distribution<double> normal;
+  Products products{dimension, {}, {}};
+  for (std::size_t row = 0; row < count + facets; ++row) {
+    std::vector<double> x(dimension);
+    double length_sq = 0.0;
+    for (double& value : x) {
+      value = normal(random);
+      length_sq += value * value;
+    }
+    std::vector<double>& rows = row < count ? products.points : products.normals;
+    const double power = row < count ? 1.0 : -1.0;
+    for (std::size_t k = 0; k < dimension; ++k) {
+      rows.push_back(x[k] / std::sqrt(length_sq) * std::pow(column_scale, power * static_cast<double>(k)));
+    }
+  }
+  return products;
+}
+
+void expect_all_products(const Products& products, std::size_t own_count) {
+  const std::size_t dimension = products.dimension, facets = products.normals.size() / dimension;
+  const std::size_t count = products.points.size() / dimension;
+  std::vector<double> low, high, expected, largest(facets);
+  for (std::size_t facet = 0; facet < facets; ++facet) {
+    std::vector<double> dots;
+    for (std::size_t row = 0; row < count; ++row) {
+      dots.push_back(dot(&products.normals[facet * dimension], &products.points[row * dimension], dimension));
+    }
+    std::sort(dots.begin(), dots.end(), std::greater<>());
+    expected.push_back(dots[0]);
+    // What growth calls the vertices may be the second highest and below: the highest has to be found.
+    const std::size_t first = facet % 2 == 0 ? 0 : std::min<std::size_t>(1, count - 1);
+    high.push_back(dots[first]);
+    low.push_back(dots[std::min(first + std::max<std::size_t>(own_count, 1) - 1, count - 1)]);
+  }
+  for (const bool in_order : {false, true}) {
+    const PointGroups groups(dimension, products.points, in_order);
+    std::fill(largest.begin(), largest.end(), 0.0);
+    highest_dots(groups, products.normals, {low, high, own_count}, largest);
+    EXPECT_EQ(largest, expected) << "in order: " << in_order;
+  }
+}
+
+TEST(HighestDotsLaw, TheResultIsThatOfAllProductsDigitForDigit) {
+  for (const std::size_t dimension : {1u, 2u, 3u, 5u, 6u, 8u, 16u, 19u}) {
+    for (const std::size_t count : {1u, 2u, 15u, 16u, 17u, 300u, 1030u}) {
+      for (const double column_scale : {1.0, 1e-3, 1e3}) {
+        SCOPED_TRACE(std::to_string(dimension) + "-d, " + std::to_string(count) + " points, " +
+                     std::to_string(column_scale));
+        const Products products = sphere(dimension, count, 37, column_scale);
+        expect_all_products(products, 0);
+        expect_all_products(products, std::min(dimension, count - 1));
+      }
+    }
+  }
+}
+
+// Points that single precision cannot tell from the plane through the own vertices.
+TEST(HighestDotsLaw, PointsAHairAboveThePlaneAreFound) {
+  for (const std::size_t dimension : {2u, 5u, 8u}) {
+    for (const double hair : {0.0, 1e-16, 1e-13, 1e-9, 1e-7, 1e-5}) {
+      SCOPED_TRACE(std::to_string(dimension) + "-d, " + std::to_string(hair));
+      Products products{dimension, {}, std::vector<double>(dimension, 0.0)};
+      products.normals[0] = 1.0;
+      std::mt19937_64 random(7);
+      std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+      for (std::size_t row = 0; row < 600; ++row) {
+        products.points.push_back(row < dimension ? 1.0 : row == 399 ? 1.0 + hair : uniform(random));
+        for (std::size_t k = 1; k < dimension; ++k) products.points.push_back(uniform(random));
+      }
+      const std::vector<double> own{1.0};
+      std::vector<double> largest{0.0};
+      highest_dots(PointGroups(dimension, products.points, false), products.normals, {own, own, dimension},
+                   largest);
+      EXPECT_EQ(largest[0], 1.0 + hair);
+    }
+  }
+}
+
+TEST(HighestDotsLaw, DuplicatesAndValuesBeyondSinglePrecisionChangeNothing) {
+  Products products = sphere(5, 100, 20, 1.0);
+  const std::vector<double> once = products.points;
+  products.points.insert(products.points.end(), once.begin(), once.end());
+  expect_all_products(products, 5);
+  for (double& value : products.points) value *= 1e200;
+  expect_all_products(products, 5);
+  for (double& value : products.points) value *= 0x1p-1000;
+  expect_all_products(products, 5);
+  std::fill(products.points.begin(), products.points.end(), 0.0);
+  expect_all_products(products, 5);
+}
+
+}  // namespace
+}  // namespace ndhull
