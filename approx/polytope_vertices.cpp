@@ -96,52 +96,91 @@ class VertexPlacer {
     return false;
   }
 
-  /// How well its planes determine each vertex: the volume that the unit normals of its widest simplex span.
-  std::vector<double> determinations() const {
+  /// The unit normal of a halfspace in coordinates of the subspace, shorter where it leaves it.
+  VectorXd local_normal(std::uint32_t plane) const {
+    const std::uint32_t id = region_.planes[plane];
+    return region_.directions.transpose() * as_vector(halfspaces_.normal(id)) / halfspaces_.length(id);
+  }
+
+  MatrixXd normals_of_simplex(std::size_t row) const {
     const auto rank = static_cast<Index>(planes_.rank);
-    std::vector<double> widest(count_, 0.0);
     MatrixXd normals(rank, rank);
+    for (Index k = 0; k < rank; ++k)
+      normals.col(k) = local_normal(polytope_.planes[row * planes_.rank + static_cast<std::size_t>(k)]);
+    return normals;
+  }
+
+  /// Of each vertex the simplex whose planes determine it best: their unit normals span the largest volume.
+  struct Determination {
+    double volume = -1.0;
+    std::size_t simplex = 0;
+  };
+
+  std::vector<Determination> determinations() const {
+    std::vector<Determination> widest(count_);
     for (std::size_t row = 0; row < polytope_.vertex_of.size(); ++row) {
-      for (Index k = 0; k < rank; ++k) {
-        const std::size_t plane = polytope_.planes[row * planes_.rank + static_cast<std::size_t>(k)];
-        normals.col(k) = Eigen::Map<const VectorXd>(planes_.normals.data() + plane * planes_.rank, rank);
-      }
-      double& best = widest[polytope_.vertex_of[row]];
-      best = std::max(best, std::abs(normals.partialPivLu().determinant()));
+      const double volume = std::abs(normals_of_simplex(row).partialPivLu().determinant());
+      Determination& best = widest[polytope_.vertex_of[row]];
+      if (volume > best.volume) best = {volume, row};
     }
     return widest;
   }
 
-  bool is_on_planes_of(std::size_t vertex, std::size_t other) const {
-    for (const std::uint32_t plane : polytope_.planes_of.row(other)) {
-      double roundoff = 0.0;
-      const double distance =
-          plain_distance(region_.planes[plane], positions_.data() + vertex * dimension_, roundoff);
-      if (std::abs(distance) > kSameVertexRoundings * roundoff) return false;
+  /// A vertex as its planes determine it, to within their rounding.
+  class Seed {
+   public:
+    Seed(const VertexPlacer& placer, std::uint32_t vertex, std::size_t simplex)
+        : placer_(placer),
+          position_(placer.positions_.data() + vertex * placer.dimension_),
+          factors_(placer.normals_of_simplex(simplex)),
+          roundoff_(static_cast<Index>(placer.planes_.rank)) {
+      for (Index k = 0; k < roundoff_.size(); ++k) {
+        const std::size_t at = simplex * placer.planes_.rank + static_cast<std::size_t>(k);
+        placer.plain_distance(placer.region_.planes[placer.polytope_.planes[at]], position_, roundoff_[k]);
+      }
     }
-    return true;
-  }
+
+    /// Moving the seed's planes by r_i moves it by sum y_i r_i off a plane with normal sum y_i n_i.
+    bool is_on_planes_of(std::uint32_t vertex) const {
+      for (const std::uint32_t plane : placer_.polytope_.planes_of.row(vertex)) {
+        double roundoff = 0.0;
+        const double distance = placer_.plain_distance(placer_.region_.planes[plane], position_, roundoff);
+        if (std::abs(distance) <= kSameVertexRoundings * roundoff) continue;
+        const VectorXd shares = factors_.solve(placer_.local_normal(plane));
+        roundoff += shares.cwiseAbs().dot(roundoff_);
+        if (!(std::abs(distance) <= kSameVertexRoundings * roundoff)) return false;
+      }
+      return true;
+    }
+
+   private:
+    const VertexPlacer& placer_;
+    const double* position_;
+    Eigen::PartialPivLU<MatrixXd> factors_;
+    VectorXd roundoff_;
+  };
 
   void merge_close_vertices() {
-    const std::vector<double> determination = determinations();
+    const std::vector<Determination> determination = determinations();
     std::vector<std::uint32_t> order(count_);
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&determination](std::uint32_t a, std::uint32_t b) {
-      return determination[a] > determination[b];
+      return determination[a].volume > determination[b].volume;
     });
     std::vector<bool> taken(count_, false);
     std::vector<std::uint32_t> to_visit;
-    for (const std::uint32_t seed : order) {
-      if (taken[seed]) continue;
-      taken[seed] = true;
-      to_visit.assign(1, seed);
+    for (const std::uint32_t first : order) {
+      if (taken[first]) continue;
+      taken[first] = true;
+      const Seed seed(*this, first, determination[first].simplex);
+      to_visit.assign(1, first);
       while (!to_visit.empty()) {
         const std::uint32_t vertex = to_visit.back();
         to_visit.pop_back();
         for (const std::uint32_t neighbour : polytope_.neighbours_of.row(vertex)) {
-          if (taken[neighbour] || !is_on_planes_of(seed, neighbour)) continue;
+          if (taken[neighbour] || !seed.is_on_planes_of(neighbour)) continue;
           taken[neighbour] = true;
-          cluster_of_[neighbour] = seed;
+          cluster_of_[neighbour] = first;
           to_visit.push_back(neighbour);
         }
       }

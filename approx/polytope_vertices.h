@@ -23,8 +23,8 @@ struct PolytopeVertices {
 /// Places the vertices of `polytope`, which is stated about `centre` in coordinates of the region's subspace.
 ///
 /// Merging   Data far from the origin have planes whose own rounding moves them by more than coplanar merging
-///           of the dual allows for; a vertex from which all planes of a neighbour are within that rounding
-///           takes the neighbour in. Best determined vertices first, so that they take in the others.
+///           of the dual allows for; a vertex from which all planes of a neighbour are within that rounding,
+///           and what it moves the vertex by, takes the neighbour in. Best determined vertices first.
 /// Refining  where a vertex is off one of its planes by more than their rounding, least squares on distances
 ///           summed in twice the precision.
 /// Cost      O(planes of the vertices x dimension) where nothing has to be refined.

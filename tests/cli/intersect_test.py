@@ -10,6 +10,7 @@ import subprocess
 import numpy
 
 from program import fresh_folder, one_error_line, rbox, run, run_tests
+from program import report_of as report_of_hull
 
 FOLDER = fresh_folder("intersect")
 LRS = shutil.which("lrs")
@@ -175,6 +176,37 @@ def test_pipe_of_three():
     planes = numpy.load(FOLDER / "outer.npy")
     corners = numpy.load(FOLDER / "corners.npy")
     assert (planes[:, :5] @ corners.T + planes[:, 5:]).max() < 1e-13
+
+
+# What rbox makes, and what is done with it: narrow, far away, nearly degenerate.
+ROUND_TRIPS = [
+    ("1000 s D4 t1", lambda x: x),
+    ("M3,4 64 D4", lambda x: x),
+    ("c D6", lambda x: x),
+    ("200 s D5 t3", lambda x: x + 1e6),
+    ("200 s D5 t3", lambda x: x + 1e10),
+    ("200 D4 t4", lambda x: x + [0, 1e9, 0, 0]),
+    ("300 s D5 t5", lambda x: x * [1e-8, 1, 1e8, 1e-3, 1e4]),
+    ("200 s D4 t6", lambda x: x * [1e-3, 1, 1e3, 1] + [1e3, -1e5, 1e6, 7]),
+    ("100 s D3 t7", lambda x: x * 1e-100),
+    ("100 s D3 t8", lambda x: x * 1e100),
+    ("200 D4 t10", lambda x: x * [1, 1, 1, 1e-13]),
+    ("1000 L100000 s G1e-16 D4", lambda x: x),
+    ("1000 W1e-13 D4", lambda x: x),
+    ("400 s Z1 G1e-13 D4", lambda x: x),
+    ("100 C1,1e-13 D4 s t", lambda x: x),
+    ("500 W0 D5", lambda x: x),
+]
+
+
+def test_round_trips_keep_vertices_and_facets():
+    for arguments, change in ROUND_TRIPS:
+        numpy.save(FOLDER / "round.npy", change(rbox(arguments, FOLDER / "round.npy")))
+        first = report_of_hull(FOLDER / "round.npy", "--planes", FOLDER / "round_planes.npy")
+        run("intersect", FOLDER / "round_planes.npy", "--vertices", FOLDER / "round_corners.npy")
+        second = report_of_hull(FOLDER / "round_corners.npy")
+        counts = [(report["vertices"], report["facets"]) for report in (first, second)]
+        assert counts[0] == counts[1], (arguments, counts)
 
 
 run_tests(globals())
