@@ -10,23 +10,30 @@ namespace {
 using Index = Eigen::Index;
 
 /// Pivots after which rounding is taken out of the inverse: each adds about u times its growth.
-constexpr std::size_t kPivotsToRefresh = 32;
+constexpr std::size_t kPivotsToRefresh = 32;  // at least; or as many as dimensions, which costs as much
 /// A point is given up only where its share of the new point is above this part of the largest one: a pivot
 /// on rounding noise would make the basis flat.
 constexpr double kSmallestPivot = 1e-11;
-/// Weights of a cone that holds its ray may be this much below 0, by rounding.
-constexpr double kWeightRounding = 1e-9;
 
 }  // namespace
 
-bool ConeWalk::start_ray(const FramePoints& points, std::vector<std::uint32_t> basis,
-                         const Eigen::VectorXd& direction) {
-  basis_ = std::move(basis);
+void ConeWalk::start_ray(const Eigen::VectorXd& direction, std::uint32_t first_axis, double radius) {
+  const Index rank = direction.size();
   direction_ = direction;
   place_ = kAnyPlace;
   turns_ = false;
-  pivot_count_ = 0;
-  return refresh(points) && weights_.minCoeff() >= -kWeightRounding * weights_.cwiseAbs().maxCoeff();
+  pivot_count_ = pivots_since_refresh_ = 0;
+  basis_.resize(static_cast<std::size_t>(rank));
+  inverse_ = Rows::Zero(rank, rank);
+  plane_.resize(rank);
+  weights_.resize(rank);
+  for (Index k = 0; k < rank; ++k) {
+    const bool is_negative = direction[k] < 0.0;
+    basis_[static_cast<std::size_t>(k)] =
+        first_axis + static_cast<std::uint32_t>(k + (is_negative ? rank : 0));
+    plane_[k] = inverse_(k, k) = (is_negative ? -1.0 : 1.0) / radius;
+    weights_[k] = std::abs(direction[k]) / radius;
+  }
 }
 
 bool ConeWalk::start_ridge(const FramePoints& points, std::vector<std::uint32_t> basis, std::size_t place) {
@@ -94,7 +101,7 @@ bool ConeWalk::pivot(const FramePoints& points, std::uint32_t id) {
   basis_[place] = id;
   turns_ = false;
   ++pivot_count_;
-  if (++pivots_since_refresh_ >= kPivotsToRefresh) return refresh(points);
+  if (++pivots_since_refresh_ >= std::max(kPivotsToRefresh, points.rank)) return refresh(points);
   return plane_.allFinite();
 }
 

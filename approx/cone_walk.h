@@ -36,10 +36,10 @@ class ConeWalk {
  public:
   static constexpr std::size_t kAnyPlace = static_cast<std::size_t>(-1);
 
-  /// A walk along the ray through `direction` from a basis whose cone holds it.
-  /// False when the basis spans no plane, or its cone does not hold the ray.
-  bool start_ray(const FramePoints& points, std::vector<std::uint32_t> basis,
-                 const Eigen::VectorXd& direction);
+  /// A walk along the ray through `direction` from points inside the hull, on the axes: row `first_axis` + k
+  /// of the points is `radius` times axis k, row first_axis + rank + k its opposite. Their cone holds the
+  /// ray, and no inverse is to be computed.
+  void start_ray(const Eigen::VectorXd& direction, std::uint32_t first_axis, double radius);
   /// A walk from a facet through `basis` over the ridge without the point at `place`.
   /// False when the basis spans no plane.
   bool start_ridge(const FramePoints& points, std::vector<std::uint32_t> basis, std::size_t place);

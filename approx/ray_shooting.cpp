@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/portable_random.h"
 
@@ -42,7 +43,8 @@ struct RayShooter::Walker {
   enum class State { kOnCore, kOnAll, kDone };
   std::size_t task = 0;
   std::uint32_t skip = DirectionQuery::kNoPoint;
-  bool ends_inside = false;
+  bool asks_inside = false;
+  bool tries_to_separate = false;  // the query is whether all points are below the point
   State state = State::kOnCore;
   ConeWalk walk;
   DirectionQuery query;
@@ -63,6 +65,11 @@ void ask(Walker& walker, double product_error, float* direction) {
   // What is refuted is above the plane whatever the rounding was; what is not near is below it.
   const double level = walker.walk.turns() ? 0.0 : 1.0 / length;
   walker.query.skip = walker.skip;
+  if (walker.tries_to_separate) {
+    const double below = walker.walk.gauge() / length - 2.0 * product_error;
+    walker.query.refute = walker.query.threshold = static_cast<float>(below);
+    return;
+  }
   walker.query.refute = static_cast<float>(level + 2.0 * product_error);
   walker.query.threshold = static_cast<float>(std::max(level - 2.0 * product_error, 0.0));
 }
@@ -159,16 +166,17 @@ void RayShooter::fill_tiles() {
   });
   all_ = ScanTiles(rank);
   all_.reserve(point_count_);
-  const double* last = nullptr;
+  copies_.assign(point_count_, 0);
+  std::uint32_t last = DirectionQuery::kNoPoint;
   for (const std::uint32_t id : order) {
     const double* const row = in_frame.row(id);
-    const bool is_copy = last != nullptr && std::equal(row, row + rank, last);
-    last = row;
-    if (is_copy) {
+    if (last != DirectionQuery::kNoPoint && std::equal(row, row + rank, in_frame.row(last))) {
       is_in_core_[id] = true;  // never to be added
     } else {
       all_.append(row, id);
+      last = id;
     }
+    ++copies_[last];
   }
   all_.mark_sorted();
 }
@@ -181,19 +189,42 @@ void RayShooter::add_to_core(std::uint32_t id) {
 
 bool RayShooter::begin(const WalkTask& task, Walker& walker) const {
   walker.skip = task.skip;
-  walker.ends_inside = task.ends_inside;
+  walker.asks_inside = task.asks_inside;
+  walker.tries_to_separate = false;
   walker.state = Walker::State::kOnCore;
   walker.result = WalkResult();
   walker.result.end = WalkEnd::kOpen;
   walker.additions.clear();
   if (task.direction.empty()) return walker.walk.start_ridge(points(), task.basis, task.place);
-  std::vector<std::uint32_t> axes;
-  const std::size_t rank = frame_.rank;
-  for (std::size_t k = 0; k < rank; ++k) {
-    axes.push_back(static_cast<std::uint32_t>(point_count_ + k + (task.direction[k] < 0.0 ? rank : 0)));
+  const Eigen::Map<const Eigen::VectorXd> direction(task.direction.data(), static_cast<Index>(frame_.rank));
+  walker.walk.start_ray(direction, static_cast<std::uint32_t>(point_count_), inner_radius_);
+  return true;
+}
+
+/// Is the point that is asked about proven to be inside? Then the walk is done. The points on the axes may
+/// stand in the proof though the hull is that without the point: they are inside the hull with it, so its own
+/// weight in what they are made of is less than one, and can be taken to the other side.
+bool RayShooter::ends_inside(Walker& walker) const {
+  if (!walker.asks_inside || walker.walk.gauge() > 1.0 + kAbove) return false;
+  if (!walker.walk.refresh(points())) {
+    walker.state = Walker::State::kDone;
+    return true;
   }
-  const Eigen::Map<const Eigen::VectorXd> direction(task.direction.data(), static_cast<Index>(rank));
-  return walker.walk.start_ray(points(), std::move(axes), direction);
+  if (walker.walk.gauge() > 1.0 + kAbove) return false;  // rounding had moved it
+  walker.state = Walker::State::kDone;
+  walker.result.end = WalkEnd::kInside;
+  return true;
+}
+
+/// Is no point of the core as far along the plane's normal as the point that is asked about? Not where single
+/// precision could not tell the point from the plane.
+bool RayShooter::separates(Walker& walker, const DirectionQuery& answer) const {
+  if (!walker.asks_inside) return false;
+  const double error = all_.product_error();
+  const double reach = walker.walk.gauge() / walker.direction_length;
+  walker.tries_to_separate = static_cast<double>(answer.furthest_product) < reach - 3.0 * error &&
+                             reach - 1.0 / walker.direction_length > 8.0 * error;
+  return walker.tries_to_separate;
 }
 
 void RayShooter::walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const {
@@ -216,17 +247,14 @@ void RayShooter::walk_on_core(std::span<Walker*> walkers, WalkCounters& counters
     std::vector<Walker*> rest;
     for (std::size_t row = 0; row < active.size(); ++row) {
       Walker& walker = *active[row];
-      if (!queries[row].is_refuted) {
+      if (!queries[row].is_refuted || separates(walker, queries[row])) {
         walker.state = Walker::State::kOnAll;
         continue;
       }
       ++counters.pivots;
       if (!walker.walk.pivot(points(), queries[row].furthest) || walker.walk.pivot_count() > most_pivots) {
         walker.state = Walker::State::kDone;
-      } else if (walker.ends_inside && walker.walk.gauge() <= 1.0 + kAbove) {
-        walker.state = Walker::State::kDone;
-        walker.result.end = WalkEnd::kInside;
-      } else {
+      } else if (!ends_inside(walker)) {
         rest.push_back(&walker);
       }
     }
@@ -237,16 +265,27 @@ void RayShooter::walk_on_core(std::span<Walker*> walkers, WalkCounters& counters
 /// The plane has been multiplied with all points: is it a facet's?
 void RayShooter::decide(Walker& walker) const {
   walker.state = Walker::State::kOnCore;
+  const bool tried_to_separate = std::exchange(walker.tries_to_separate, false);
   const FramePoints all = points();
   const auto take_in = [&](std::uint32_t id) {
     walker.additions.push_back(id);
     if (walker.walk.pivot(all, id) && walker.walk.pivot_count() <= kMaxPivotsPerDimension * frame_.rank) {
-      if (!walker.ends_inside || walker.walk.gauge() > 1.0 + kAbove) return;
-      walker.result.end = WalkEnd::kInside;
+      ends_inside(walker);
+      return;
     }
     walker.state = Walker::State::kDone;
   };
   if (walker.query.is_refuted) return take_in(walker.query.furthest);
+  if (tried_to_separate) {
+    WalkResult& result = walker.result;
+    walker.state = Walker::State::kDone;
+    result.end = WalkEnd::kOutside;
+    result.plane.assign(walker.walk.plane().data(), walker.walk.plane().data() + frame_.rank);
+    result.gauge = walker.walk.gauge();
+    // Products are below the query's threshold by more than half of what it leaves to the gauge.
+    result.level = result.gauge - 0.5 * all_.product_error() * walker.direction_length;
+    return;
+  }
   if (walker.walk.turns()) {  // no point beyond the ridge: the facet is all there is
     walker.state = Walker::State::kDone;
     return;
@@ -264,6 +303,13 @@ void RayShooter::decide(Walker& walker) const {
   if (worst_id != DirectionQuery::kNoPoint) return take_in(worst_id);
   WalkResult& result = walker.result;
   walker.state = Walker::State::kDone;
+  result.gauge = walker.walk.gauge();
+  result.plane.assign(plane.data(), plane.data() + plane.size());
+  if (walker.asks_inside) {
+    result.end = result.gauge > 1.0 + 2.0 * above ? WalkEnd::kOutside : WalkEnd::kInside;
+    result.level = 0.5 * (1.0 + above + result.gauge);
+    return;
+  }
   result.end = WalkEnd::kFacet;
   result.coplanar = kCoplanarToAbove * above;
   for (const std::uint32_t id : walker.query.near) {
@@ -271,8 +317,6 @@ void RayShooter::decide(Walker& walker) const {
   }
   std::sort(result.on_plane.begin(), result.on_plane.end());
   result.basis = walker.walk.basis();
-  result.plane.assign(plane.data(), plane.data() + plane.size());
-  result.gauge = walker.walk.gauge();
 }
 
 std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::stop_token stop) {

@@ -35,13 +35,14 @@ struct WalkTask {
   std::size_t place = 0;
   /// The hull is that of all points but this one.
   std::uint32_t skip = DirectionQuery::kNoPoint;
-  /// Ray: end as soon as the point `direction` is proven to be in the hull.
-  bool ends_inside = false;
+  /// Ray: is the point `direction` in the hull? The walk ends as soon as that is proven, or the opposite.
+  bool asks_inside = false;
 };
 
 enum class WalkEnd {
   kFacet,     ///< no point is above the plane
-  kInside,    ///< `direction` is in the hull (ends_inside)
+  kInside,    ///< `direction` is in the hull (or above it by less than rounding)
+  kOutside,   ///< asks_inside: all points are below the plane a.y = level, `direction` is above it
   kOpen,      ///< rounding or the limit of pivots ended the walk: nothing is known
   kNotBegun,  ///< a stop was requested first
 };
@@ -54,6 +55,7 @@ struct WalkResult {
                                         ///< ascending; of equal points the first
   double coplanar = 0.0;                ///< [gauge]
   double gauge = 0.0;                   ///< ray: a.direction
+  double level = 1.0;                   ///< kOutside: between a.y for all points y and the gauge
 };
 
 /// Counters of the work, which do not depend on the machine.
@@ -77,6 +79,10 @@ class RayShooter {
   std::size_t point_count() const { return point_count_; }
   /// Points that walks meet: of equal points only the first.
   std::size_t distinct_count() const { return all_.size(); }
+  /// The one in this place, the longest first.
+  std::uint32_t distinct_point(std::size_t place) const { return all_.id(place); }
+  /// Points of the input equal to a distinct one, itself included.
+  std::uint32_t copies_of(std::uint32_t id) const { return copies_[id]; }
   std::size_t core_size() const { return core_.size(); }
   const WalkCounters& counters() const { return counters_; }
 
@@ -94,6 +100,8 @@ class RayShooter {
   std::vector<std::uint32_t> find_centre(const PointView& points);
   bool begin(const WalkTask& task, Walker& walker) const;
   void walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const;
+  bool ends_inside(Walker& walker) const;
+  bool separates(Walker& walker, const DirectionQuery& answer) const;
   void decide(Walker& walker) const;
 
   Frame frame_;
@@ -102,6 +110,7 @@ class RayShooter {
   std::vector<double> coordinates_;  // the points and 2 rank points inside the hull, on the axes
   ScanTiles all_{0}, core_{0};
   std::vector<bool> is_in_core_;
+  std::vector<std::uint32_t> copies_;  // 0: a copy itself
   WalkCounters counters_;
 };
 

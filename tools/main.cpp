@@ -13,6 +13,7 @@
 #include "approx/report.h"
 #include "core/error.h"
 #include "tools/contains_command.h"
+#include "tools/extreme_command.h"
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
 #include "tools/largest_command.h"
@@ -72,6 +73,7 @@ int run(const std::vector<std::string>& arguments) {
   ndhull::add_intersect_command(app, exit_code);
   ndhull::add_contains_command(app);
   ndhull::add_largest_command(app, exit_code);
+  ndhull::add_extreme_command(app, exit_code);
   ndhull::add_generate_command(app);
   ndhull::add_rbox_command(app);
   ndhull::add_verify_command(app, exit_code);

@@ -141,7 +141,7 @@ TEST(RayShootingExample, EndsEarlyInsideTheHull) {
   const PointSet set = family_points(PointFamily::kSphere, 100, 5, 6);
   RayShooter shooter(set.view());
   const auto vertex = shooter.points().point(0);
-  WalkTask inside{.direction = {vertex.data(), vertex.data() + 5}, .ends_inside = true};
+  WalkTask inside{.direction = {vertex.data(), vertex.data() + 5}, .asks_inside = true};
   for (double& x : inside.direction) x *= 0.5;
   WalkTask outside = inside;
   outside.skip = 0;  // of the hull without the point itself
@@ -149,8 +149,12 @@ TEST(RayShootingExample, EndsEarlyInsideTheHull) {
   const std::vector<WalkTask> tasks = {inside, outside};
   const std::vector<WalkResult> walks = shooter.walk(tasks);
   EXPECT_EQ(walks[0].end, WalkEnd::kInside);
-  EXPECT_EQ(walks[1].end, WalkEnd::kFacet);
-  EXPECT_GT(walks[1].gauge, 1.0);
+  ASSERT_EQ(walks[1].end, WalkEnd::kOutside);
+  EXPECT_GT(walks[1].gauge, walks[1].level);
+  const Eigen::Map<const Eigen::VectorXd> plane(walks[1].plane.data(), 5);
+  for (std::uint32_t id = 0; id < 100; ++id) {
+    EXPECT_EQ(plane.dot(shooter.points().point(id)) > walks[1].level, id == 0);
+  }
 }
 
 }  // namespace

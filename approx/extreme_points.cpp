@@ -1,0 +1,168 @@
+#include "approx/extreme_points.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "approx/frame_planes.h"
+#include "approx/ray_shooting.h"
+#include "core/error.h"
+
+namespace ndhull {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Points that are asked about between two looks at the clock.
+constexpr std::size_t kBatch = 2048;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A vertex and the plane in the frame that parts it: a.y = level.
+struct FoundVertex {
+  std::uint32_t id;
+  std::vector<double> plane;
+  double level;
+};
+
+/// The two ends of points on a line, parted from the rest half way to the next point.
+std::vector<FoundVertex> ends_of_segment(const RayShooter& shooter) {
+  std::vector<std::uint32_t> order(shooter.distinct_count());
+  for (std::size_t row = 0; row < order.size(); ++row) order[row] = shooter.distinct_point(row);
+  const auto at = [&shooter](std::uint32_t id) { return *shooter.points().row(id); };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
+  const std::size_t last = order.size() - 1;
+  return {{order[0], {-1.0}, -0.5 * (at(order[0]) + at(order[1]))},
+          {order[last], {1.0}, 0.5 * (at(order[last]) + at(order[last - 1]))}};
+}
+
+class ExtremeSearch {
+ public:
+  ExtremeSearch(RayShooter& shooter, const ExtremeOptions& options, Clock::time_point start)
+      : shooter_(shooter), options_(options), start_(start) {}
+
+  /// Asks about every distinct point, the longest first: those are vertices more often than others.
+  void run(ExtremePoints& result) {
+    const std::size_t rank = shooter_.frame().rank;
+    const std::size_t count = shooter_.distinct_count();
+    std::size_t first = 0;
+    for (; first < count && !is_over(result); first += kBatch) {
+      std::vector<WalkTask> tasks;
+      for (std::size_t row = first; row < std::min(first + kBatch, count); ++row) {
+        const std::uint32_t id = shooter_.distinct_point(row);
+        const double* const point = shooter_.points().row(id);
+        tasks.push_back({.direction = {point, point + rank}, .skip = id, .asks_inside = true});
+      }
+      std::vector<WalkResult> walks = shooter_.walk(tasks, options_.stop);
+      for (std::size_t row = 0; row < tasks.size(); ++row) note(tasks[row].skip, walks[row], result);
+      if (options_.progress) {
+        options_.progress("vertices " + std::to_string(found_.size()) + ", points left " +
+                          std::to_string(count - std::min(first + kBatch, count)));
+      }
+    }
+    result.open_points += first < count ? count - first : 0;
+  }
+
+  std::vector<FoundVertex>& found() { return found_; }
+
+ private:
+  bool is_over(ExtremePoints& result) const {
+    if (options_.stop.stop_requested()) result.status = ExtremeStatus::kInterrupted;
+    if (options_.max_seconds > 0.0 && seconds_since(start_) > options_.max_seconds) {
+      result.status = ExtremeStatus::kTimeLimit;
+    }
+    return result.status != ExtremeStatus::kComplete;
+  }
+
+  void note(std::uint32_t id, WalkResult& walk, ExtremePoints& result) {
+    switch (walk.end) {
+      case WalkEnd::kInside: ++result.points_inside; return;
+      case WalkEnd::kOutside:
+        shooter_.add_to_core(id);
+        found_.push_back({id, std::move(walk.plane), walk.level});
+        return;
+      case WalkEnd::kNotBegun: result.status = ExtremeStatus::kInterrupted; [[fallthrough]];
+      case WalkEnd::kFacet:
+      case WalkEnd::kOpen: ++result.open_points; return;
+    }
+  }
+
+  RayShooter& shooter_;
+  const ExtremeOptions& options_;
+  Clock::time_point start_;
+  std::vector<FoundVertex> found_;
+};
+
+/// Planes in input units, in the order of the ids.
+void write_planes(const Frame& frame, std::vector<FoundVertex>& found, const RayShooter& shooter,
+                  ExtremePoints& result) {
+  std::sort(found.begin(), found.end(),
+            [](const FoundVertex& a, const FoundVertex& b) { return a.id < b.id; });
+  const std::size_t dimension = frame.dimension;
+  std::vector<double> normal(dimension);
+  for (const FoundVertex& vertex : found) {
+    double length = 0.0;
+    std::vector<double> plane = vertex.plane;
+    map_normals(frame, plane.data(), 1, normal.data(), &length);
+    // a.y = level with a.y = length normal.(x - centre)
+    double offset = -vertex.level / length;
+    for (std::size_t k = 0; k < dimension; ++k) offset -= normal[k] * frame.centre[k];
+    result.vertices.push_back(PointId{vertex.id});
+    result.copies.push_back(shooter.copies_of(vertex.id));
+    result.planes.insert(result.planes.end(), normal.begin(), normal.end());
+    result.planes.push_back(offset);
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(ExtremeStatus status) {
+  switch (status) {
+    case ExtremeStatus::kComplete: return "complete";
+    case ExtremeStatus::kTimeLimit: return "time_limit";
+    case ExtremeStatus::kInterrupted: return "interrupted";
+  }
+  return "unknown";
+}
+
+ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& options) {
+  const Clock::time_point start = Clock::now();
+  ExtremePoints result;
+  result.point_count = points.rows;
+  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
+                                             : static_cast<int>(options.threads));
+  arena.execute([&] {
+    RayShooter shooter(points);
+    const Frame& frame = shooter.frame();
+    result.dimension = frame.dimension;
+    result.rank = frame.rank;
+    result.interior_point = frame.centre;
+    if (frame.rank > kMaxExtremeRank) {
+      throw Error(ErrorCode::kDimensionTooHigh,
+                  "points span " + std::to_string(frame.rank) + " dimensions, expected at most " +
+                      std::to_string(kMaxExtremeRank) + "; project them to fewer");
+    }
+    if (frame.rank == 0) {
+      result.vertices.push_back(PointId{0});
+      result.copies.push_back(static_cast<std::uint32_t>(points.rows));
+      return;
+    }
+    ExtremeSearch search(shooter, options, start);
+    if (frame.rank == 1) {
+      search.found() = ends_of_segment(shooter);
+      result.points_inside = shooter.distinct_count() - 2;
+    } else {
+      search.run(result);
+    }
+    write_planes(frame, search.found(), shooter, result);
+  });
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,60 @@
+// The vertices of a hull without its facets, in any dimension.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/points.h"
+
+namespace ndhull {
+
+/// Largest rank whose vertices are looked for. [dimensions]
+inline constexpr std::size_t kMaxExtremeRank = 512;
+
+struct ExtremeOptions {
+  double max_seconds = 0.0;   ///< wall clock; 0: none
+  unsigned threads = 0;       ///< 0: all cores. The result does not depend on it.
+  std::stop_token stop = {};  ///< ends with the vertices found so far
+  /// Called from the calling thread with a few words on how far it is.
+  std::function<void(std::string_view)> progress = {};
+};
+
+enum class ExtremeStatus { kComplete, kTimeLimit, kInterrupted };
+std::string_view to_string(ExtremeStatus status);
+
+/// The vertices, each with a plane that parts it from all other points.
+struct ExtremePoints {
+  std::size_t dimension = 0, rank = 0, point_count = 0;
+  ExtremeStatus status = ExtremeStatus::kComplete;
+  std::vector<PointId> vertices;  ///< ascending; of equal points the first
+  /// One row a vertex, dimension + 1 numbers, unit normal and offset: normal . x + offset is above 0 at the
+  /// vertex (and at points equal to it) and below 0 at all others. Empty when all points are equal.
+  std::vector<double> planes;
+  std::vector<std::uint32_t> copies;  ///< one a vertex: points of the input equal to it, itself included
+  std::vector<double> interior_point;
+  std::uint64_t points_inside = 0;  ///< distinct points that are no vertices
+  /// Distinct points that were not decided: rounding, or a limit. 0 when complete, but for rounding.
+  std::uint64_t open_points = 0;
+  double seconds = 0.0;
+};
+
+/// Finds the vertices.
+///
+/// Method    For each point one linear program: is it a combination of others? Over the points found to be
+///           extreme so far first; a direction in which none of these is as far is tried on all points. Then
+///           the furthest of all joins them, or the point is a vertex (Clarkson. More output-sensitive
+///           geometric algorithms. FOCS 1994; Ottmann, Schuierer, Soundaralakshmi. Enumerating extreme points
+///           in higher dimensions. STACS 1995).
+/// Roundoff  A point less than about 2e-12 of the hull's size outside the hull of the others is none, as for
+///           growth.
+/// Throws    Error as fit_frame; kDimensionTooHigh rank above kMaxExtremeRank.
+/// Cost      points x vertices x dimension multiply-adds at the worst, times the pivots of a program (10 in
+///           10-d); 12 rank bytes a point, 8 dimension a vertex.
+ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& options = {});
+
+}  // namespace ndhull

@@ -1,0 +1,149 @@
+// A vertex whose nearest point is known stays as far away when a new one is chosen that lies behind the plane
+// across its gap. Others are marked, and looked at again when they come to the head of the queue: distances
+// only fall, so the furthest that is up to date is the furthest of all. Eight are looked at together, which
+// is as many for any number of threads.
+#include "approx/kept_points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+
+#include "approx/hull_distance.h"
+
+namespace ndhull {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr std::size_t kLooksAtATime = 8;
+/// Points that are this little outside the others' hull are no vertices (extreme_points). [ratio]
+constexpr double kVertexRounding = 4e-12;
+
+Eigen::MatrixXd gather_columns(const PointView& points, std::span<const PointId> ids,
+                               std::span<const double> centre) {
+  Eigen::MatrixXd columns(static_cast<Index>(points.dimension), static_cast<Index>(ids.size()));
+  for (std::size_t row = 0; row < ids.size(); ++row) {
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      columns(static_cast<Index>(k), static_cast<Index>(row)) = points.at(ids[row].value, k) - centre[k];
+    }
+  }
+  return columns;
+}
+
+/// The greedy choice.
+class Chooser {
+ public:
+  Chooser(const PointView& points, std::span<const PointId> vertices, std::span<const double> centre)
+      : vertices_(vertices),
+        columns_(gather_columns(points, vertices, centre)),
+        found_(vertices.size()),
+        is_current_(vertices.size(), false) {
+    kept_.resize(columns_.rows(), 0);
+    size_ = std::sqrt(columns_.colwise().squaredNorm().maxCoeff());
+  }
+
+  std::size_t furthest_from_centre() const {
+    Index furthest = 0;
+    columns_.colwise().squaredNorm().maxCoeff(&furthest);
+    return static_cast<std::size_t>(furthest);
+  }
+
+  void keep(std::size_t vertex) {
+    kept_.conservativeResize(Eigen::NoChange, kept_.cols() + 1);
+    kept_.col(kept_.cols() - 1) = columns_.col(static_cast<Index>(vertex));
+    tbb::parallel_for(std::size_t{0}, vertices_.size(), [&](std::size_t row) {
+      const HullDistance& known = found_[row];
+      if (known.places.empty()) return;
+      const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(row));
+      if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[row] = 0;
+    });
+    if (queue_.empty()) {
+      for (std::uint32_t row = 0; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
+    }
+  }
+
+  /// The vertex that is furthest from the hull of those kept.
+  std::size_t furthest() {
+    while (true) {
+      std::vector<std::uint32_t> looks;
+      while (looks.size() < kLooksAtATime && !queue_.empty() && is_current_[queue_.top().vertex] == 0) {
+        looks.push_back(queue_.top().vertex);
+        queue_.pop();
+      }
+      if (looks.empty()) return queue_.top().vertex;
+      tbb::parallel_for(std::size_t{0}, looks.size(), [&](std::size_t one) {
+        HullDistance& known = found_[looks[one]];
+        known = hull_distance(kept_, columns_.col(static_cast<Index>(looks[one])), std::move(known));
+        is_current_[looks[one]] = 1;
+      });
+      for (const std::uint32_t vertex : looks) queue_.push({found_[vertex].upper, vertex});
+    }
+  }
+
+  const HullDistance& distance(std::size_t vertex) const { return found_[vertex]; }
+  double vertex_rounding() const { return kVertexRounding * size_; }
+  double size() const { return size_; }
+
+ private:
+  struct Entry {
+    double distance;
+    std::uint32_t vertex;
+    bool operator<(const Entry& other) const {
+      return distance != other.distance ? distance < other.distance : vertex > other.vertex;
+    }
+  };
+
+  std::span<const PointId> vertices_;
+  Eigen::MatrixXd columns_;  // about the centre
+  Eigen::MatrixXd kept_;
+  std::vector<HullDistance> found_;
+  std::vector<std::uint8_t> is_current_;
+  std::priority_queue<Entry> queue_;  // one entry a vertex
+  double size_ = 0.0;
+};
+
+}  // namespace
+
+KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
+                       std::span<const double> centre, const KeepOptions& options) {
+  KeptPoints result;
+  Chooser chooser(points, vertices, centre);
+  std::size_t next = chooser.furthest_from_centre();
+  double last_distance = HUGE_VAL;
+  while (true) {
+    chooser.keep(next);
+    result.points.push_back(vertices[next]);
+    next = chooser.furthest();
+    const HullDistance& furthest = chooser.distance(next);
+    last_distance = std::min(last_distance, furthest.upper + chooser.vertex_rounding());
+    result.distances.push_back(last_distance);
+    result.lower = furthest.lower;
+    if (result.points.size() >= std::min(options.count, vertices.size()) || furthest.lower == 0.0) break;
+    if (options.stop.stop_requested()) break;
+    if (options.progress) {
+      options.progress("kept " + std::to_string(result.points.size()) + ", distance " +
+                       std::to_string(last_distance));
+    }
+  }
+  return result;
+}
+
+std::vector<double> distances_from_hull(const PointView& points, std::span<const PointId> hull,
+                                        std::span<const double> centre) {
+  const Eigen::MatrixXd columns = gather_columns(points, hull, centre);
+  std::vector<double> distances(points.rows);
+  tbb::parallel_for(std::size_t{0}, points.rows, [&](std::size_t row) {
+    Eigen::VectorXd point(static_cast<Index>(points.dimension));
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      point[static_cast<Index>(k)] = points.at(row, k) - centre[k];
+    }
+    distances[row] = hull_distance(columns, point).upper;
+  });
+  return distances;
+}
+
+}  // namespace ndhull

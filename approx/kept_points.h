@@ -1,0 +1,52 @@
+// A few vertices whose hull is nearly the whole hull: the approximate hull where facets make no sense any
+// more.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/points.h"
+
+namespace ndhull {
+
+/// Vertices in the order they were chosen. After k of them every input point is within distances[k - 1] of
+/// their hull.
+struct KeptPoints {
+  std::vector<PointId> points;
+  std::vector<double> distances;  ///< [distance, input units] proven, roundoff included; none rises
+  double lower = 0.0;  ///< [distance] proven: some input point is at least so far from the final hull
+};
+
+struct KeepOptions {
+  std::size_t count = 100;  ///< vertices wanted, at least 1
+  std::stop_token stop = {};
+  std::function<void(std::string_view)> progress = {};  ///< called from the calling thread
+};
+
+/// Chooses vertices greedily: first the one furthest from `centre`, then again and again the one furthest
+/// from the hull of those chosen, until there are enough or none is outside.
+///
+/// vertices  of all the points (extreme_points): the distance from a hull is a convex function, so no point
+/// is
+///           further from it than the furthest vertex, but for the rounding that decided what is a vertex,
+///           which is added.
+/// Returns   fewer than wanted when fewer make the whole hull, or a stop was requested.
+/// Not promised  that no other vertices would be nearer: greedy choices are good, not best.
+/// Source    lazy evaluation of distances that can only fall, as in Minoux. Accelerated greedy algorithms.
+/// 1978. Cost      count x vertices x dimension for marking, and some hull_distance calls a choice, in
+/// parallel.
+KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
+                       std::span<const double> centre, const KeepOptions& options);
+
+/// Proven upper bounds of the distance of every input point from the hull of some points.
+/// Cost  one hull_distance call a point, in parallel.
+std::vector<double> distances_from_hull(const PointView& points, std::span<const PointId> hull,
+                                        std::span<const double> centre);
+
+}  // namespace ndhull

@@ -1,0 +1,6 @@
+// The vertices of a hull without its facets, and a choice of a few: #include <ndhull/extreme.h>,
+// ndhull::extreme_points, ndhull::keep_points.
+#pragma once
+
+#include "approx/extreme_points.h"  // IWYU pragma: export
+#include "approx/kept_points.h"     // IWYU pragma: export

@@ -1,0 +1,67 @@
+#include "tools/extreme_command.h"
+
+#include <memory>
+
+#include "tools/command_options.h"
+#include "tools/extreme_run.h"
+
+namespace ndhull {
+
+void add_extreme_command(CLI::App& app, int& exit_code) {
+  const auto request = std::make_shared<ExtremeRequest>();
+  CLI::App* const command =
+      app.add_subcommand("extreme", "The vertices of the hull alone, in any dimension; prints a summary.");
+  command->add_option("POINTS", request->points_path, "points: a file, or - for standard input")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  CLI::Option* const keep =
+      command
+          ->add_option("--keep", request->keep,
+                       "choose K vertices whose hull is near all points, the furthest first")
+          ->type_name("K")
+          ->check(whole_number(1));
+  command
+      ->add_option(
+          "--vertices", request->vertices_path,
+          "write the indices of the vertices, with --keep of the chosen ones in their order: .npy or "
+          "text")
+      ->type_name("FILE")
+      ->check(path_name());
+  command
+      ->add_option(
+          "--planes", request->planes_path,
+          "write a plane for each vertex that parts it from all other points: .ine, .npy, or Qhull text")
+      ->type_name("FILE")
+      ->check(path_name());
+  command
+      ->add_option("--distances", request->distances_path,
+                   "write, for each point, a bound of its distance from the hull of the chosen ones: .npy or "
+                   "text")
+      ->type_name("FILE")
+      ->check(path_name())
+      ->needs(keep);
+  command->add_option("--report", request->report_path, "write the report, JSON")
+      ->type_name("FILE")
+      ->check(path_name());
+  command->add_flag("--verify", request->verify,
+                    "check, exactly, that the planes part each vertex from all other points");
+  command->add_option("--max-seconds", request->options.max_seconds, "limit: seconds of the search")
+      ->type_name("S")
+      ->check(positive_number());
+  command
+      ->add_option("--threads", request->options.threads,
+                   "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
+  command->add_flag("--progress", request->progress, "show progress though standard error is no terminal");
+  command->add_flag("--quiet", request->quiet, "no progress, no summary");
+  command->footer(
+      "One linear program a point; no facets are made, so hundreds of dimensions are not too many.\n"
+      "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
+      "written.\n" +
+      example("ndhull extreme points.npy --keep 100 --vertices chosen.npy --report report.json"));
+  command->callback([request, &exit_code] { exit_code = run_extreme(*request); });
+}
+
+}  // namespace ndhull

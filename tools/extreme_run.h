@@ -1,0 +1,35 @@
+// What `ndhull extreme` does once its command line is understood.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "approx/extreme_points.h"
+
+namespace ndhull {
+
+/// The command line of `ndhull extreme`. Paths are empty when the output is not wanted; "-" is standard
+/// output.
+struct ExtremeRequest {
+  std::string points_path;
+  ExtremeOptions options;
+  std::size_t keep = 0;  ///< 0: all vertices
+  std::string vertices_path, planes_path, distances_path, report_path;
+  bool verify = false;
+  bool progress = false;
+  bool quiet = false;
+
+  bool has_output() const {
+    return !vertices_path.empty() || !planes_path.empty() || !distances_path.empty() || !report_path.empty();
+  }
+};
+
+/// Reads the points, finds their vertices, chooses among them if asked, verifies, and writes what was asked
+/// for, the report last; without any output prints a summary.
+///
+/// Returns  0; 2 when a plane does not part its vertex from all other points, which is said on standard error
+///          and nothing is written; 130 when Ctrl-C came: what there is was written.
+/// Throws   Error as read_points, extreme_points and the writers do; kUsage, kFileWrite as run_hull.
+int run_extreme(const ExtremeRequest& request);
+
+}  // namespace ndhull
