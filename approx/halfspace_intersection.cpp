@@ -155,6 +155,13 @@ class Intersector {
     PlanePolytope polytope = intersect_about_origin(planes, dual_options(options_));
     result_.dual_hull_seconds = seconds_since(start);
     result_.status = polytope.status;
+    if (!polytope.bounded) {
+      if (polytope.status != HullStatus::kComplete) return;  // so few planes that nothing is bounded yet
+      throw Error(
+          ErrorCode::kBadHalfspace,
+          "found a region so long that doubles do not tell it from one without end, expected one that "
+          "is not; scale the coordinates");
+    }
     start = Clock::now();
     PolytopeVertices vertices = place_vertices(halfspaces_, region_, centre, planes, polytope);
     result_.vertices = std::move(vertices.coordinates);

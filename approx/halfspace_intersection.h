@@ -46,7 +46,7 @@ struct IntersectionOptions {
 struct HalfspaceIntersection {
   IntersectionKind kind = IntersectionKind::kEmpty;
   /// Of the dual hull. Anything but kComplete: vertices are those of some of the halfspaces, so the
-  /// intersection is inside them.
+  /// intersection is inside them; none when these bound nothing yet. There is no volume then.
   HullStatus status = HullStatus::kComplete;
   std::size_t dimension = 0;
   std::size_t rank = 0;  ///< of the region, when it is not empty
@@ -97,8 +97,8 @@ struct HalfspaceIntersection {
 ///           hull's coplanar merging holds for one, are one vertex with all their halfspaces.
 /// Throws    Error kBadHalfspace a zero normal, or an interior point that is not inside, with the halfspace
 /// and
-///           the distance; kNotFinite; kEmptyInput no rows; kUsage an interior point of another dimension;
-///           kDimensionTooHigh rank above kMaxRank.
+///           the distance, or a region too long for doubles; kNotFinite; kEmptyInput no rows; kUsage an
+///           interior point of another dimension; kDimensionTooHigh rank above kMaxRank.
 /// Cost      linear programs with rank rows, then the hull of the dual points; `measure`: see
 ///           measure_polytope.
 HalfspaceIntersection intersect_halfspaces(const PointView& halfspaces,

@@ -40,9 +40,11 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
     const FacetId facet{id};
     const double offset = hull.offset(facet);
     if (!(offset < 0.0)) {
-      polytope = PlanePolytope();
-      polytope.bounded = false;  // the hull of the dual points does not contain the origin
-      return polytope;
+      // The hull of the dual points does not contain the origin: without all of them it need not.
+      PlanePolytope open;
+      open.bounded = false;
+      open.status = hull.status;
+      return open;
     }
     const auto normal = hull.normal(facet);
     for (std::size_t k = 0; k < rank; ++k) polytope.vertices[id * rank + k] = normal[k] / -offset;

@@ -25,7 +25,7 @@ struct PlanesAboutOrigin {
 /// Vertices and, simplex by simplex, the planes in them. A vertex in which more than rank planes meet has
 /// several simplices: together they say how it looks when the planes are moved a little.
 struct PlanePolytope {
-  bool bounded = true;  ///< otherwise nothing else is set
+  bool bounded = true;  ///< otherwise nothing but the status is set
   HullStatus status = HullStatus::kComplete;
   std::vector<double> vertices;              ///< rows x rank
   std::vector<std::uint32_t> planes;         ///< simplices x rank: the planes of each simplex

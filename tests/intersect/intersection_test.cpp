@@ -223,6 +223,18 @@ TEST(IntersectionExample, InteriorPointsAreTakenOrRefused) {
   EXPECT_NE(message_of({0.0}).find("of 1 coordinates, expected 2"), std::string::npos);
 }
 
+TEST(IntersectionExample, LongWedgesAreBounded) {
+  // A wedge with sides of slope 1 / length, cut off at its length.
+  for (const double length : {1e3, 1e6, 1e9, 1e12, 1e15, 1e18, 1e60}) {
+    SCOPED_TRACE("length " + std::to_string(length));
+    const Rows rows{{-1.0, 0.0, 0.0}, {1.0 / length, 1.0, -1.0}, {1.0 / length, -1.0, -1.0}};
+    const HalfspaceIntersection region = intersect(rows);  // corners (0, 1), (0, -1), (length, 0)
+    ASSERT_EQ(region.kind, IntersectionKind::kBounded);
+    EXPECT_EQ(region.vertex_count(), 3U);
+    EXPECT_NEAR(region.volume.value(), length, 1e-12 * length);
+  }
+}
+
 TEST(IntersectionExample, BadHalfspacesAreErrors) {
   EXPECT_THROW(intersect({{1.0, 0.0, -1.0}, {0.0, 0.0, -1.0}}), Error);
   EXPECT_THROW(intersect({{1.0, std::nan(""), -1.0}}), Error);
@@ -323,6 +335,27 @@ TEST(IntersectionLaw, PlanesOfKnownPolytopesGiveTheirVerticesVolumeAndArea) {
     const PointSet corners = vertex_rows(known.points, hull);
     EXPECT_LE(furthest_point(corners, region), 1e-11 * extent_of(corners));
   }
+}
+
+TEST(IntersectionLaw, LimitsGiveVerticesAroundTheIntersection) {
+  const PointSet points = family_points(PointFamily::kSphere, 300, 4, 6);
+  const Hull hull = hull_of(points);
+  const PlaneRows planes = exact_planes(hull);
+  for (const std::uint64_t limit : {1U, 10U, 100U, 1000U}) {
+    IntersectionOptions options;
+    options.limits.max_facets = limit;
+    const HalfspaceIntersection region = intersect_planes(planes, options);
+    EXPECT_EQ(region.kind, IntersectionKind::kBounded);
+    EXPECT_EQ(region.status, HullStatus::kFacetLimit);
+    EXPECT_FALSE(region.volume);
+    EXPECT_LT(region.non_redundant.size(), planes.count());
+    if (region.vertex_count() == 0) continue;
+    const PointSet corners{4, region.vertices, ""};
+    EXPECT_GT(hull_of(corners).volume, hull.volume);
+  }
+  IntersectionOptions enough;
+  enough.limits.max_facets = 1'000'000;
+  EXPECT_EQ(intersect_planes(planes, enough).vertex_count(), points.rows());
 }
 
 TEST(IntersectionLaw, ThreadsChangeNothing) {
