@@ -15,5 +15,7 @@ struct EngineFailed : std::runtime_error {
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.
 void add_phases_command(CLI::App& app);
+/// `rays`: the largest facets without the hull.
+void add_rays_command(CLI::App& app);
 
 }  // namespace ndhull

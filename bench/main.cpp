@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   // One line a command; the order is that of --help.
   ndhull::add_peers_command(app);
   ndhull::add_phases_command(app);
+  ndhull::add_rays_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

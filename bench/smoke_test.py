@@ -46,6 +46,12 @@ def test_phases_names_the_phases():
     assert all(word in table for word in ("total", "growth", "certify", "merge")), table
 
 
+def test_rays_counts_its_recall():
+    table = run("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big").splitlines()
+    words = table[-1].split()
+    assert words[:5] == ["2000", "s", "D5", "t1", "56576"] and 0.5 <= float(words[-2]) <= 1, table
+
+
 def test_list_and_usage():
     assert "80 s D10 t1" in run("peers", "--list").splitlines()
     run("peers", "--only", "no such input", exit_code=1)
