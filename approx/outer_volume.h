@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "approx/hull.h"
@@ -19,10 +20,17 @@ struct OuterVolume {
 /// Volume of the polytope below the certified outer planes of `facets` (none: of all facets), about the
 /// hull's interior point; inside the affine subspace when the hull is flat.
 ///
-/// Returns   no volume when the planes do not bound a region, or when it has more than about max_simplices
-///           vertices (its vertices as simplices of the dual hull).
+/// Returns   no volume when the planes do not bound a region, when it has more than about max_simplices
+///           vertices (its vertices as simplices of the dual hull; 0: no limit), or after a request to stop.
 /// Error     as measure_polytope's.
 /// Cost      the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a vertex.
-OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices);
+/// Planes
+///           too many for max_simplices vertices cost nothing. The result does not depend on threads.
+OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
+                         unsigned threads = 0, const std::stop_token& stop = {});
+
+/// A max_simplices with which the volume costs at most about 0.2 s or a fifth of the hull's growth, whichever
+/// is more, and no more memory than limits.max_memory_bytes. The same for the same hull on every machine.
+std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits = {});
 
 }  // namespace ndhull

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "approx/facet_selection.h"
+#include "approx/outer_volume.h"
 #include "approx/verify.h"
 
 namespace ndhull {
@@ -50,6 +52,7 @@ Json seconds_of(const Hull& hull, const ReportContext& context) {
     json[std::string(to_string(static_cast<Phase>(phase)))] = hull.statistics.seconds[phase];
   }
   json["select"] = context.select_seconds;
+  json["outer_volume"] = context.outer_volume_seconds;
   json["verify"] = context.verify_seconds;
   json["write"] = context.write_seconds;
   json["total"] = context.total_seconds;
@@ -91,6 +94,19 @@ Json subspace_of(const Hull& hull) {
   return equations;
 }
 
+Json selected_of(const FacetSelection& selection) {
+  return {{"facets", selection.facets.size()},
+          {"added", selection.added},
+          {"bounded", selection.bounded},
+          {"open_direction", selection.bounded ? Json(nullptr) : Json(selection.open_direction)}};
+}
+
+void add_outer_volume(const OuterVolume* outer, Json& json) {
+  const bool is_known = outer != nullptr && outer->volume.has_value();
+  json["outer_volume"] = is_known ? Json(*outer->volume) : Json(nullptr);
+  if (!is_known) json["outer_volume_reason"] = outer != nullptr ? outer->reason : "not computed";
+}
+
 Json head_of(const Hull& hull, const ReportContext& context) {
   Json json;
   json["ndhull"] = version();
@@ -106,9 +122,10 @@ Json head_of(const Hull& hull, const ReportContext& context) {
   json["simplicial_facets"] = hull.simplicial_facet_count();
   json["merged_facets"] = hull.facet_count() - hull.simplicial_facet_count();
   json["simplices"] = hull.simplices.row_count;
+  if (context.selection != nullptr) json["selected"] = selected_of(*context.selection);
   json["area"] = hull.area;
   json["volume"] = hull.volume;
-  json["outer_volume"] = nullptr;
+  add_outer_volume(context.outer_volume, json);
   json["roundoff"] = hull.roundoff;
   json["max_outer_offset"] = hull.max_outer_offset;
   json["min_inner_offset"] = hull.min_inner_offset;
@@ -132,8 +149,13 @@ class FacetLines {
  public:
   explicit FacetLines(const Hull& hull) : hull_(hull) {}
 
-  void append(FacetId facet, std::string& text) const {
-    text += "{\"normal\": ";
+  void append(FacetId facet, bool with_id, std::string& text) const {
+    text += '{';
+    if (with_id) {
+      append_number("\"id\": ", facet.value, text);
+      text += ", ";
+    }
+    text += "\"normal\": ";
     append_all(hull_.normal(facet), text, [](double value) { return value; });
     append_number(", \"offset\": ", hull_.offset(facet), text);
     append_number(", \"centred_offset\": ", hull_.centred_offset(facet), text);
@@ -184,9 +206,11 @@ void write_hull_report(const Hull& hull, const ReportContext& context,
     text.resize(text.size() - std::string_view("\n}").size());
     text += ",\n  \"facet_list\": [";
     const FacetLines lines(hull);
-    for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const FacetSelection* const selection = context.selection;
+    const std::size_t count = selection != nullptr ? selection->facets.size() : hull.facet_count();
+    for (std::uint32_t row = 0; row < count; ++row) {
       text += row == 0 ? "\n    " : ",\n    ";
-      lines.append(FacetId{row}, text);
+      lines.append(selection != nullptr ? selection->facets[row] : FacetId{row}, selection != nullptr, text);
       if (text.size() < kPieceSize) continue;
       sink(text);
       text.clear();

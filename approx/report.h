@@ -13,13 +13,15 @@
 
 namespace ndhull {
 
+struct FacetSelection;
+struct OuterVolume;
 struct Verification;
 
 /// The version of the library, like 1.2.3.
 std::string_view version();
 
 /// The value of an option: std::monostate is null, an option that is off.
-using OptionValue = std::variant<std::monostate, bool, std::uint64_t, std::string>;
+using OptionValue = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
 /// What the report says and the hull does not know.
 struct ReportContext {
@@ -30,12 +32,15 @@ struct ReportContext {
 
   double read_seconds = 0.0;
   double select_seconds = 0.0;
+  double outer_volume_seconds = 0.0;
   double write_seconds = 0.0;  ///< of all results but the report
   double total_seconds = 0.0;
   double verify_seconds = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 
   const Verification* verification = nullptr;  ///< null: not verified
+  const FacetSelection* selection = nullptr;   ///< null: all facets
+  const OuterVolume* outer_volume = nullptr;   ///< of the selection, else of all facets; null: not computed
   bool facet_list = false;
 };
 
@@ -47,6 +52,7 @@ struct ReportContext {
 /// Numbers   read back as the same doubles. A ratio without a divisor, and what is not known, is null.
 /// Planes    facet_list: distance(x) = normal.x + offset; the certified plane is
 ///           normal.(x - reference) + centred_offset, which is the same up to roundoff.
+/// Selection facet_list has the selected facets, each with its `id`; neighbours are ids, selected or not.
 /// Sink      gets the text in pieces; memory does not grow with the facets.
 void write_hull_report(const Hull& hull, const ReportContext& context,
                        const std::function<void(std::string_view)>& sink);

@@ -6,6 +6,7 @@
 #include "tools/command_options.h"
 #include "tools/hull_options.h"
 #include "tools/qhull_formats.h"
+#include "tools/selection_options.h"
 
 namespace ndhull {
 namespace {
@@ -38,6 +39,8 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
                                   ->type_name("FILE")
                                   ->check(path_name());
   command.add_flag("--facet-list", request.facet_list, "put every facet into the report")->needs(report);
+  command.add_flag("--outer-volume", request.outer_volume,
+                   "volume below the outer planes however long it takes; default: when it costs little");
   command
       .add_option("--format", arguments.format,
                   "print Qhull's text formats, any of n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s")
@@ -60,6 +63,7 @@ PlaneKind plane_kind_of(const std::string& name) {
 HullRequest complete_request(const CLI::App& command, const Arguments& arguments) {
   HullRequest request = arguments.request;
   request.options = arguments.hull.complete();
+  check_selection(request.selection);
   request.plane_kind = plane_kind_of(arguments.plane_kind);
   request.formats = split_qhull_formats(arguments.format);
   if (command.count("--format") > 0 && request.formats.empty()) {
@@ -82,14 +86,19 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       ->check(path_name())
       ->required();
   arguments->hull.add_to(*command);
+  add_selection_options(*command, arguments->request.selection);
   add_output_options(*command, *arguments);
   command->footer(
       "POINTS: .npy, .csv, .tsv, .ext (cdd, lrs), Qhull text or columns. FILE may be - for standard output.\n"
+      "A selection (--largest, --min-area, --most-merged; several: their intersection) says which facets "
+      "are\n"
+      "written to --planes, --facet-list and --format. --vertices and all else are those of the whole hull.\n"
       "A limit that is hit ends growth; what there is is certified, written, and `status` in the report says "
       "so.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
-      example("ndhull hull points.npy --planes outer.ine --report report.json"));
+      example("ndhull hull points.npy --planes outer.ine --report report.json") + "\n" +
+      example("ndhull hull points.npy --largest 20 --bounded --planes outer.ine"));
   command->callback(
       [arguments, command, &exit_code] { exit_code = run_hull(complete_request(*command, *arguments)); });
 }

@@ -1,5 +1,5 @@
-// Steps in order: read, growth .. merge (the library), verify, write. Nothing is opened for writing before
-// the input is known to be good, and every file appears whole or not at all.
+// Steps in order: read, growth .. merge (the library), verify, select, outer volume, write. Nothing is opened
+// for writing before the input is known to be good, and every file appears whole or not at all.
 #include "tools/hull_run.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <chrono>
 #include <utility>
 
+#include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "core/error.h"
 #include "tools/hull_summary.h"
@@ -41,13 +42,24 @@ std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   return outputs;
 }
 
+template <class Number>
+OptionValue value_or_null(const std::optional<Number>& value) {
+  return value ? OptionValue(*value) : OptionValue();
+}
+
 std::vector<std::pair<std::string, OptionValue>> program_options(const HullRequest& request) {
   OptionValue verify, formats;
+  const SelectionOptions& selection = request.selection;
   if (request.verify.has_value()) {
     verify = std::string(*request.verify == VerifyMode::kExact ? "exact" : "floating");
   }
   if (!request.formats.empty()) formats = fmt::format("{}", fmt::join(request.formats, " "));
-  return {{"planes", path_or_null(request.planes_path)},
+  return {{"largest", value_or_null(selection.largest)},
+          {"min_area", value_or_null(selection.min_area)},
+          {"most_merged", value_or_null(selection.most_merged)},
+          {"bounded", selection.bounded},
+          {"outer_volume", request.outer_volume},
+          {"planes", path_or_null(request.planes_path)},
           {"plane_kind", std::string(to_string(request.plane_kind))},
           {"vertices", path_or_null(request.vertices_path)},
           {"report", path_or_null(request.report_path)},
@@ -58,20 +70,46 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
           {"quiet", request.quiet}};
 }
 
-void write_results(const HullRequest& request, const Hull& hull, const PointView& points) {
+/// One line on standard error.
+void warn_of_open_selection(const FacetSelection& selection, const Hull& hull) {
+  fmt::print(
+      stderr,
+      "ndhull: warning: the outer planes of the {} facets selected of {} bound no region: the direction "
+      "({:.6g}) stays open; --bounded adds the few facets that close it\n",
+      selection.facets.size(), hull.facet_count(), fmt::join(selection.open_direction, ", "));
+}
+
+/// `selection`: null for all facets.
+void write_results(const HullRequest& request, const Hull& hull, const PointView& points,
+                   const FacetSelection* selection) {
   if (!request.planes_path.empty()) {
     const WrittenPlanes planes(hull, points, request.plane_kind);
-    write_planes(request.planes_path, hull.facet_count(), hull.dimension,
-                 [&planes, &hull](std::size_t index, double* row) {
-                   planes.fill(FacetId{static_cast<std::uint32_t>(index)}, {row, hull.dimension + 1});
-                 });
+    const std::size_t count = selection != nullptr ? selection->facets.size() : hull.facet_count();
+    write_planes(request.planes_path, count, hull.dimension, [&](std::size_t index, double* row) {
+      const FacetId facet =
+          selection != nullptr ? selection->facets[index] : FacetId{static_cast<std::uint32_t>(index)};
+      planes.fill(facet, {row, hull.dimension + 1});
+    });
   }
   if (!request.vertices_path.empty()) write_indices(request.vertices_path, hull.vertices);
   if (!request.formats.empty()) {
     OutputFile file("-");
-    write_qhull_formats(file, request.formats, QhullPrint(hull, points));
+    std::optional<std::span<const FacetId>> printed;
+    if (selection != nullptr) printed = selection->facets;
+    write_qhull_formats(file, request.formats, QhullPrint(hull, points, printed));
     file.commit();
   }
+}
+
+/// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
+OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context) {
+  std::span<const FacetId> facets;
+  if (context.selection != nullptr) {
+    if (!context.selection->bounded) return {std::nullopt, "the outer planes do not bound a region"};
+    facets = context.selection->facets;
+  }
+  const std::uint64_t limit = request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
+  return outer_volume(hull, facets, limit, context.options.threads, context.options.stop);
 }
 
 void write_report(const std::string& path, const Hull& hull, const ReportContext& context) {
@@ -122,15 +160,35 @@ int run_hull(const HullRequest& request) {
     }
   }
 
+  std::optional<FacetSelection> selection;
+  if (request.selection.is_set()) {
+    progress.show_phase("select");
+    const Clock::time_point select_start = Clock::now();
+    selection = select_facets(hull, request.selection);
+    context.select_seconds = seconds_since(select_start);
+    context.selection = &*selection;
+    progress.clear();
+    if (!selection->bounded) warn_of_open_selection(*selection, hull);
+  }
+  std::optional<OuterVolume> outer;
+  const bool is_summary = !request.has_output() && !request.quiet;
+  if (!request.report_path.empty() || is_summary) {
+    progress.show_phase("outer volume");
+    const Clock::time_point volume_start = Clock::now();
+    arena.execute([&] { outer = outer_volume_of(request, hull, context); });
+    context.outer_volume_seconds = seconds_since(volume_start);
+    context.outer_volume = &*outer;
+  }
+
   progress.show_phase("write");
   const Clock::time_point write_start = Clock::now();
-  write_results(request, hull, points.view());
+  write_results(request, hull, points.view(), context.selection);
   context.write_seconds = seconds_since(write_start);
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
   if (!request.report_path.empty()) write_report(request.report_path, hull, context);
-  if (!request.has_output() && !request.quiet) {
+  if (is_summary) {
     OutputFile file("-");
     file.write(hull_summary(hull, context));
     file.commit();

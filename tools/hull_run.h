@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "approx/facet_selection.h"
 #include "approx/hull.h"
 #include "approx/verify.h"
 #include "approx/written_planes.h"
@@ -15,6 +16,8 @@ namespace ndhull {
 struct HullRequest {
   std::string points_path;
   HullOptions options;
+  SelectionOptions selection;
+  bool outer_volume = false;  ///< for the report and the summary, whatever it costs
   std::string planes_path;
   PlaneKind plane_kind = PlaneKind::kOuter;
   std::string vertices_path;
@@ -30,8 +33,9 @@ struct HullRequest {
   }
 };
 
-/// Reads the points, computes their hull, verifies it if asked, and writes what was asked for, the report
-/// last; without any output prints a summary.
+/// Reads the points, computes their hull, selects facets and verifies it if asked, and writes what was asked
+/// for, the report last; without any output prints a summary. A selection whose outer planes do not bound a
+/// region is said on standard error.
 ///
 /// Returns  0; 2 when a claim of the hull failed, which is said on standard error and nothing is written;
 ///          130 when Ctrl-C came: what there is was written.

@@ -2,11 +2,29 @@
 
 #include <fmt/format.h>
 
+#include "approx/facet_selection.h"
+#include "approx/outer_volume.h"
 #include "approx/verify.h"
 #include "tools/byte_count.h"
 #include "tools/summary_text.h"
 
 namespace ndhull {
+namespace {
+
+std::string describe_selection(const FacetSelection& selection) {
+  std::string text = fmt::format("selected  {} facets", grouped(selection.facets.size()));
+  if (selection.added > 0) text += fmt::format(", {} of them to bound a region", grouped(selection.added));
+  return text + (selection.bounded ? "; bounded\n" : "; not bounded\n");
+}
+
+std::string describe_outer_volume(const OuterVolume& outer, const Hull& hull) {
+  if (!outer.volume) return fmt::format("outer     no volume: {}\n", outer.reason);
+  return fmt::format("outer     {:.10g} {}: below the outer planes\n", *outer.volume,
+                     power_of_unit(hull.rank));
+}
+
+}  // namespace
+
 std::string hull_summary(const Hull& hull, const ReportContext& context) {
   const std::string_view unit = context.options.unit_cube ? "[unit cube]" : "[input]";
   std::string text = fmt::format("hull      {}: {} points in {}-d, {}\n", context.input_path,
@@ -23,9 +41,11 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
                       grouped(hull.simplicial_facet_count()),
                       grouped(hull.facet_count() - hull.simplicial_facet_count()),
                       grouped(hull.simplices.row_count));
+  if (context.selection != nullptr) text += describe_selection(*context.selection);
   if (hull.rank > 0) {
     // The facets of a segment are its two ends, which are counted.
     text += fmt::format("volume    {:.10g} {}\n", hull.volume, power_of_unit(hull.rank));
+    if (context.outer_volume != nullptr) text += describe_outer_volume(*context.outer_volume, hull);
     if (hull.rank > 1) text += fmt::format("area      {:.10g} {}\n", hull.area, power_of_unit(hull.rank - 1));
     text += fmt::format("width     {:.3g} {}: the widest facet, certified\n", hull.max_facet_width, unit);
     text += fmt::format("roundoff  {:.3g} {}\n", hull.roundoff, unit);

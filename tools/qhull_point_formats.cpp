@@ -8,12 +8,14 @@ namespace ndhull {
 
 void write_mean_vertex(OutputFile& file, const QhullPrint& print) {
   const std::size_t dimension = print.hull.dimension;
+  // Of the hull when nothing was selected: the mean of no vertices is no point.
+  const std::vector<PointId>& vertices = print.vertices.empty() ? print.hull.vertices : print.vertices;
   std::vector<double> mean(dimension, 0.0);
-  for (const PointId vertex : print.vertices) {
+  for (const PointId vertex : vertices) {
     for (std::size_t k = 0; k < dimension; ++k) mean[k] += print.points.at(vertex.value, k);
   }
   file.print("{} 1\n", dimension);
-  for (const double sum : mean) file.print("{:6.16g} ", sum / static_cast<double>(print.vertices.size()));
+  for (const double sum : mean) file.print("{:6.16g} ", sum / static_cast<double>(vertices.size()));
   file.write("\n");
 }
 

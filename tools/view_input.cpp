@@ -175,8 +175,9 @@ ViewedHull read_fields(const Json& report, const std::string& path) {
   if (report.at("facet_list").size() != report.at("facets").get<std::size_t>()) {
     throw Error(
         ErrorCode::kUsage,
-        fmt::format("{}: found {} facets of {}, expected all; write the report without a selection, or "
-                    "view the points",
+        fmt::format("{}: found a selection, {} facets of {}, expected all, which a section of the hull "
+                    "needs; write the report without --largest, --min-area and --most-merged, or view "
+                    "the points",
                     display_name(path), report.at("facet_list").size(), report.at("facets").dump()));
   }
   const CubeLength cube_length(viewed.extents, facets.subspace_equations);

@@ -13,7 +13,8 @@ from program import DIAMONDS, PROGRAM, fresh_folder, rbox, report_of, run, run_t
 KEYS = """ndhull input status options length_unit vertices facets simplicial_facets merged_facets simplices area
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
     interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
-OPTIONS = """max_facets max_seconds max_memory unit_cube triangulate threads seed planes plane_kind vertices report
+OPTIONS = """max_facets max_seconds max_memory unit_cube triangulate threads seed largest
+    min_area most_merged bounded outer_volume planes plane_kind vertices report
     facet_list format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
 # A hull of some millions of facets: it takes long enough to be interrupted, and its few points make an end quick.
@@ -30,7 +31,8 @@ def test_report_of_the_diamonds():
     assert (report["vertices"], report["facets"]) == (258, 19110)
     assert report["facets"] == report["simplicial_facets"] + report["merged_facets"]
     assert report["simplices"] >= report["facets"]
-    assert report["outer_volume"] is None and report["area"] > 0 and report["volume"] > 0
+    assert report["area"] > 0 and report["volume"] > 0
+    assert report["outer_volume"] is None and "more than about" in report["outer_volume_reason"]
     assert 0 < report["roundoff"] < 1e-13
     assert report["width_ratio"] == report["max_facet_width"] / report["roundoff"]
     assert report["max_outer_offset"] >= 0 >= report["min_inner_offset"]
@@ -39,7 +41,7 @@ def test_report_of_the_diamonds():
     interior = report["interior_point"]
     assert all(points.min(axis=0) < interior) and all(interior < points.max(axis=0))
     seconds = report["seconds"]
-    phases = ["read", "growth", "certify", "merge", "select", "verify", "write", "total"]
+    phases = ["read", "growth", "certify", "merge", "select", "outer_volume", "verify", "write", "total"]
     assert list(seconds) == phases and seconds["total"] >= sum(seconds[phase] for phase in phases[:-1]) * 0.99
     assert report["peak_memory_bytes"] > points.nbytes / 2
     assert "facet_list" not in report and "selected" not in report

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "tests/support/degeneracies.h"
 #include "tests/support/named_polytopes.h"
@@ -66,6 +67,8 @@ void expect_golden(const std::string& name, const PointSet& set, HullOptions opt
   context.options = options;
   context.facet_list = facet_list;
   const Hull hull = convex_hull(set.view(), options);
+  const OuterVolume outer = outer_volume(hull, {}, 100'000);
+  context.outer_volume = &outer;
   const Json report = without_the_run(Json::parse(hull_report_json(hull, context)));
   const std::string path = name + ".json";
   if (std::getenv("NDHULL_UPDATE_GOLDEN") != nullptr) {

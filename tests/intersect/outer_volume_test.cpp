@@ -86,5 +86,39 @@ TEST(OuterVolumeExample, TooManyVerticesAreAReason) {
   EXPECT_NE(outer.reason.find("more than about 100 vertices"), std::string::npos) << outer.reason;
 }
 
+TEST(OuterVolumeExample, WithoutALimitThereIsAlwaysAVolume) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  const OuterVolume one = outer_volume(hull, {}, 0, 1);
+  EXPECT_NEAR(one.volume.value(), hull.volume, 1e-11 * hull.volume);
+  EXPECT_EQ(outer_volume(hull, {}, 0, 3).volume, one.volume);
+}
+
+TEST(OuterVolumeExample, ARequestToStopIsAReason) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  std::stop_source source;
+  source.request_stop();
+  const OuterVolume outer = outer_volume(hull, {}, 0, 1, source.get_token());
+  EXPECT_FALSE(outer.volume);
+  EXPECT_EQ(outer.reason, "interrupted");
+}
+
+TEST(OuterVolumeLaw, WhatIsAffordableGrowsWithTheHullAndShrinksWithTheRankAndTheMemory) {
+  std::uint64_t last = UINT64_MAX;
+  for (std::size_t d = 2; d <= 9; ++d) {
+    const Hull hull = hull_of(family_points(PointFamily::kSphere, d + 3, d, 1));
+    const std::uint64_t simplices = affordable_simplices(hull);
+    EXPECT_GE(simplices, 1000U);
+    EXPECT_LT(simplices, last);
+    last = simplices;
+  }
+  Hull hull = hull_of(family_points(PointFamily::kSphere, 20, 5, 1));
+  const std::uint64_t alone = affordable_simplices(hull);
+  EXPECT_EQ(affordable_simplices(hull, {.max_memory_bytes = 1'000'000'000}), alone);
+  EXPECT_LT(affordable_simplices(hull, {.max_memory_bytes = 1'000'000}), 10'000U);
+  EXPECT_EQ(affordable_simplices(hull, {.max_memory_bytes = 1}), 1U);
+  hull.statistics.created_simplices = 20'000'000;
+  EXPECT_EQ(affordable_simplices(hull) / alone, 10U);
+}
+
 }  // namespace
 }  // namespace ndhull

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""ndhull hull --largest, --min-area, --most-merged, --bounded: what is written, and what is said of it."""
+
+import json
+
+import numpy
+from program import DIAMONDS, fresh_folder, one_error_line, rbox, report_of, run, run_tests
+
+
+def all_facets(path, *options):
+    return report_of(path, "--facet-list", *options)["facet_list"]
+
+
+def rank_of(rows):
+    return numpy.linalg.matrix_rank(numpy.array(rows))
+
+
+def test_every_output_has_the_selected_facets_and_no_others():
+    folder = fresh_folder("outputs")
+    rbox("300 s D4 t1", folder / "points.npy")
+    whole = all_facets(folder / "points.npy")
+    areas = numpy.array([facet["area"] for facet in whole])
+    expected = sorted(numpy.argsort(-areas)[:7].tolist())
+    report = report_of(folder / "points.npy", "--largest", 7, "--facet-list", "--planes", folder / "mean.npy",
+                       "--plane-kind", "mean", "--vertices", folder / "v.npy")  # fmt: skip
+    assert report["facets"] == len(whole) and report["selected"]["facets"] == 7
+    assert report["options"]["largest"] == 7 and report["options"]["bounded"] is False
+    ids = [facet.pop("id") for facet in report["facet_list"]]
+    assert ids == expected, (ids, expected)
+    assert report["facet_list"] == [whole[row] for row in expected]
+    rows = [whole[row]["normal"] + [whole[row]["offset"]] for row in expected]
+    assert numpy.load(folder / "mean.npy").tolist() == rows
+    assert len(numpy.load(folder / "v.npy")) == report["vertices"] == 300
+    lines = run("hull", folder / "points.npy", "--largest", 7, "--format", "n Fa Fs").stdout.splitlines()
+    assert lines[:2] == ["5", "7"] and len(lines) == 2 + 7 + 1 + 7 + 2
+    assert numpy.allclose(numpy.array([line.split() for line in lines[2:9]], dtype=float), rows, rtol=0, atol=1e-15)
+    assert numpy.allclose([float(line) for line in lines[10:17]], areas[expected], rtol=1e-14)
+    assert lines[17].split()[4] == str(len(whole)) and lines[17].split()[6] == "7", lines[17]
+
+
+def test_options_are_intersected():
+    whole = all_facets(DIAMONDS)
+    area = numpy.array([facet["area"] for facet in whole])
+    limit = float(numpy.sort(area)[-40])
+    chosen = {name: {facet["id"] for facet in all_facets(DIAMONDS, *options)}
+              for name, options in [("largest", ["--largest", 60]), ("area", ["--min-area", repr(limit)]),
+                                    ("merged", ["--most-merged", 5000]),
+                                    ("all", ["--largest", 60, "--min-area", repr(limit), "--most-merged", 5000])]
+              }  # fmt: skip
+    assert [len(chosen[name]) for name in ("largest", "area", "merged")] == [60, 40, 5000]
+    assert chosen["area"] == set(numpy.nonzero(area >= limit)[0].tolist())
+    assert chosen["all"] == chosen["largest"] & chosen["area"] & chosen["merged"]
+    simplices = [facet["simplices"] for facet in whole]
+    assert min(simplices[row] for row in chosen["merged"]) >= max(
+        simplices[row] for row in range(len(whole)) if row not in chosen["merged"])  # fmt: skip
+
+
+def test_open_selections_are_said_and_bounded_ones_hold_every_point():
+    folder = fresh_folder("bounded")
+    points = folder / "points.npy"
+    rbox("1000 s D5 t1", points)
+    for count in range(1, 7):
+        done = run("hull", points, "--largest", count, "--report", folder / "report.json")
+        report = report_of(points, "--largest", count, "--facet-list")
+        selected = report["selected"]
+        normals = numpy.array([facet["normal"] for facet in report["facet_list"]])
+        direction = numpy.array(selected["open_direction"])
+        assert selected["bounded"] is False and selected["added"] == 0
+        assert abs(numpy.linalg.norm(direction) - 1) < 1e-12 and (normals @ direction).max() < 1e-12
+        assert report["outer_volume"] is None and "do not bound" in report["outer_volume_reason"]
+        assert done.stderr.startswith("ndhull: warning: ") and done.stderr.count("\n") == 1, done.stderr
+        assert f"{direction[0]:.6g}, {direction[1]:.6g}, " in done.stderr and "--bounded" in done.stderr
+        for extension in ("npy", "ine", "txt"):
+            planes = folder / f"planes.{extension}"
+            done = run("hull", points, "--largest", count, "--bounded", "--planes", planes)
+            assert done.stderr == "", done.stderr
+            assert "pass" in run("verify", points, planes).stdout
+            assert '"bounded"' in run("intersect", planes, "--report", "-").stdout
+        report = report_of(points, "--largest", count, "--bounded")
+        selected = report["selected"]
+        assert selected["bounded"] is True and selected["open_direction"] is None
+        assert selected["facets"] == count + selected["added"] == len(numpy.load(folder / "planes.npy")) >= 6
+        assert report["outer_volume"] > report["volume"] and "outer_volume_reason" not in report
+
+
+def test_the_outer_volume_is_that_of_the_intersection():
+    folder = fresh_folder("volume")
+    points = folder / "points.npy"
+    rbox("400 s D5 t1", points)
+    report = report_of(points, "--largest", 60, "--bounded", "--planes", folder / "planes.npy")
+    again = run("intersect", folder / "planes.npy", "--report", folder / "report.json")
+    volume = json.loads((folder / "report.json").read_text())["volume"]
+    assert again.stderr == "" and abs(report["outer_volume"] / volume - 1) < 1e-9, (report["outer_volume"], volume)
+    # What is too dear is said, and done when asked for.
+    report = report_of(points)
+    assert report["outer_volume"] is None and "more than about" in report["outer_volume_reason"]
+    report = report_of(points, "--largest", 2500)
+    assert report["outer_volume"] is None and report["selected"]["bounded"]
+    report = report_of(points, "--largest", 2500, "--outer-volume")
+    assert report["volume"] < report["outer_volume"] < 2 * report["volume"]
+
+
+def test_a_selection_of_everything_and_of_nothing():
+    folder = fresh_folder("extremes")
+    path = folder / "points.npy"
+    rbox("50 D3 t1", path)
+    for options in (["--largest", 10**6], ["--min-area", 1e-12]):
+        run("hull", path, *options, "--planes", folder / "some.npy")
+        run("hull", path, "--planes", folder / "all.npy")
+        assert (folder / "some.npy").read_bytes() == (folder / "all.npy").read_bytes()
+    done = run("hull", path, "--min-area", 1e12, "--format", "n FV", "--report", folder / "report.json")
+    lines = done.stdout.splitlines()
+    assert lines[:3] == ["4", "0", "3 1"] and "nan" not in lines[3] and "0 facets selected" in done.stderr
+    assert "selected  0 facets; not bounded" in run("hull", path, "--min-area", 1e12).stdout
+    assert "1 of them" not in run("hull", path, "--largest", 3).stdout
+    assert "of them to bound a region; bounded" in run("hull", path, "--largest", 3, "--bounded").stdout
+
+
+def test_flat_points_are_bounded_in_their_subspace():
+    path = fresh_folder("flat") / "points.npy"
+    points = rbox("60 s D3 t1", path)
+    numpy.save(path, points @ numpy.arange(15.0).reshape(3, 5) ** 0.5)
+    report = report_of(path, "--largest", 3, "--bounded", "--facet-list")
+    assert report["selected"]["bounded"] and rank_of([facet["normal"] for facet in report["facet_list"]]) == 3
+    assert report["outer_volume"] > report["volume"]
+
+
+def test_bounded_alone_and_bad_numbers_are_usage_errors():
+    path = fresh_folder("usage") / "points.npy"
+    rbox("20 D3", path)
+    one_error_line(run("hull", path, "--bounded", exit_code=1), "usage")
+    for words in (["--largest", "0"], ["--largest", "-3"], ["--min-area", "x"], ["--most-merged", "1.5"]):
+        done = run("hull", path, *words, exit_code=1)
+        assert words[0] in done.stderr, done.stderr
+
+
+def test_view_draws_whole_hulls_only():
+    folder = fresh_folder("view")
+    rbox("40 s D4 t1", folder / "points.npy")
+    run("hull", folder / "points.npy", "--largest", 5, "--bounded", "--report", folder / "report.json", "--facet-list")
+    done = run("view", folder / "report.json", "-o", folder / "view.svg", exit_code=1)
+    one_error_line(done, "usage")
+    assert "without --largest" in done.stderr and not (folder / "view.svg").exists()
+    run("hull", folder / "points.npy", "--largest", 9999, "--report", folder / "report.json", "--facet-list")
+    run("view", folder / "report.json", "-o", folder / "view.svg")
+
+
+if __name__ == "__main__":
+    run_tests(globals())

@@ -1,0 +1,31 @@
+#include "tools/selection_options.h"
+
+#include "core/error.h"
+#include "tools/command_options.h"
+
+namespace ndhull {
+
+void add_selection_options(CLI::App& command, SelectionOptions& selection) {
+  command.add_option("--largest", selection.largest, "select the N facets of largest area")
+      ->type_name("N")
+      ->check(whole_number(1));
+  command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
+      ->type_name("A")
+      ->check(positive_number());
+  command
+      .add_option("--most-merged", selection.most_merged,
+                  "select the N facets that were merged of most simplices")
+      ->type_name("N")
+      ->check(whole_number(1));
+  command.add_flag("--bounded", selection.bounded,
+                   "add the fewest further facets that make the outer planes bound a region");
+}
+
+void check_selection(const SelectionOptions& selection) {
+  if (!selection.bounded || selection.is_set()) return;
+  throw Error(ErrorCode::kUsage,
+              "--bounded: found no selection, expected --largest, --min-area or --most-merged; all facets "
+              "together bound a region anyway");
+}
+
+}  // namespace ndhull

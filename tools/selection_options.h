@@ -1,0 +1,17 @@
+// The options that say which facets of a hull are wanted.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "approx/facet_selection.h"
+
+namespace ndhull {
+
+/// Adds --largest, --min-area, --most-merged and --bounded. `selection` must live until the command line is
+/// parsed.
+void add_selection_options(CLI::App& command, SelectionOptions& selection);
+
+/// Throws Error kUsage for --bounded without a selection: all facets bound a region.
+void check_selection(const SelectionOptions& selection);
+
+}  // namespace ndhull
