@@ -111,6 +111,7 @@ class Chooser {
 KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
                        std::span<const double> centre, const KeepOptions& options) {
   KeptPoints result;
+  if (vertices.empty()) return result;
   Chooser chooser(points, vertices, centre);
   std::size_t next = chooser.furthest_from_centre();
   double last_distance = HUGE_VAL;

@@ -36,7 +36,7 @@ struct KeepOptions {
 /// is
 ///           further from it than the furthest vertex, but for the rounding that decided what is a vertex,
 ///           which is added.
-/// Returns   fewer than wanted when fewer make the whole hull, or a stop was requested.
+/// Returns   fewer than wanted when fewer make the whole hull, or a stop was requested; none of no vertices.
 /// Not promised  that no other vertices would be nearer: greedy choices are good, not best.
 /// Source    lazy evaluation of distances that can only fall, as in Minoux. Accelerated greedy algorithms.
 /// 1978. Cost      count x vertices x dimension for marking, and some hull_distance calls a choice, in

@@ -131,11 +131,11 @@ std::uint64_t LargestSearch::led_by(std::uint64_t rays) const {
                     [this, rays](std::uint32_t id) { return search_.facet(id).ray_count == rays; }));
 }
 
-/// Each ray finds some of the largest facets or none; those that one ray found, and two, tell how many were
-/// found by none.
+/// Each ray leads to some of the largest facets or to none: how many were led to by one, two and more tells
+/// how many there are that none led to.
 double LargestSearch::recall_estimate() const {
-  const auto given = static_cast<double>(largest_.size());
-  return given == 0.0 ? 0.0 : given / (given + unseen_estimate(led_by(1), led_by(2)));
+  const std::uint64_t one = led_by(1), two = led_by(2);
+  return coverage_estimate(one, two, largest_.size() - one - two);
 }
 
 bool LargestSearch::is_over(std::size_t stable_rounds) {

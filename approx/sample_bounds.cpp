@@ -91,6 +91,11 @@ double unseen_share_bound(std::uint64_t rays, double confidence) {
   return x < 1.0 ? x : 1.0;
 }
 
+double coverage_estimate(std::uint64_t once, std::uint64_t twice, std::uint64_t more) {
+  const std::uint64_t meetings = once + 2 * twice + 3 * more;
+  return meetings == 0 ? 0.0 : 1.0 - static_cast<double>(once) / static_cast<double>(meetings);
+}
+
 double unseen_estimate(std::uint64_t once, std::uint64_t twice) {
   const auto one = static_cast<double>(once);
   return once == 0 ? 0.0 : one * (one - 1.0) / (2.0 * (static_cast<double>(twice) + 1.0));

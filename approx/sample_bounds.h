@@ -24,6 +24,17 @@ ShareInterval share_interval(std::uint64_t hits, std::uint64_t rays, double conf
 ///        less; x makes the product 1 - confidence. 1 when there are no rays.
 double unseen_share_bound(std::uint64_t rays, double confidence);
 
+/// Part of all kinds that was met, when `once` were met once, `twice` twice and `more` more often:
+/// 1 - once / (once + 2 twice + 3 more), Good's and Turing's estimate with counts that end at three. 0
+/// without any.
+///
+/// Bias   Where all kinds are met equally often on average (Poisson) it is right to 0.02, whatever that
+/// average is.
+///        Where rates differ it is too high, and where kinds are met in groups it varies more than they do
+///        alone.
+/// Source Good. The population frequencies of species. Biometrika 40, 1953.
+double coverage_estimate(std::uint64_t once, std::uint64_t twice, std::uint64_t more);
+
 /// How many kinds were not met, when `once` were met once and `twice` twice: a lower estimate, unbiased when
 /// all are equally likely. Source  Chao. Nonparametric estimation of the number of classes in a population.
 /// Scand. J. Statistics 11, 1984 (with the usual correction for small counts).

@@ -103,7 +103,9 @@ void write_results(const ExtremeRequest& request, const Outcome& outcome) {
                    std::copy_n(found.planes.data() + index * columns, columns, row);
                  });
   }
-  if (!request.distances_path.empty()) write_numbers(request.distances_path, outcome.distances);
+  if (outcome.kept.has_value() && !request.distances_path.empty()) {
+    write_numbers(request.distances_path, outcome.distances);
+  }
 }
 
 Json option_json(const OptionValue& value) {
@@ -208,7 +210,7 @@ int run_extreme(const ExtremeRequest& asked) {
   interrupt.arm();
   outcome.found = extreme_points(points.view(), request.options);
   const ExtremePoints& found = outcome.found;
-  if (request.keep > 0) {
+  if (request.keep > 0 && !found.vertices.empty()) {  // a limit may leave none
     const Clock::time_point keep_start = Clock::now();
     arena.execute([&] {
       outcome.kept = keep_points(

@@ -103,6 +103,11 @@ TEST(KeepPointsLaw, ChoosesTheFurthestEachTime) {
   }
 }
 
+TEST(KeepPointsExample, NoVerticesNoChoice) {
+  const PointSet set = family_points(PointFamily::kCube, 10, 3, 9);
+  EXPECT_TRUE(keep_points(set.view(), {}, std::vector<double>(3, 0.0), {.count = 4}).points.empty());
+}
+
 TEST(KeepPointsExample, AllVerticesAreTheWholeHull) {
   const PointSet set = family_points(PointFamily::kCube, 100, 3, 9);
   const ExtremePoints extreme = extreme_points(set.view());

@@ -72,6 +72,19 @@ TEST(UnseenShareLaw, BoundsTheChanceThatAnyFacetIsMissed) {
   EXPECT_LT(unseen_share_bound(1000, 0.9), unseen_share_bound(1000, 0.99));
 }
 
+TEST(CoverageEstimateLaw, IsNearlyRightWhereAllKindsAreAlike) {
+  EXPECT_EQ(coverage_estimate(0, 0, 0), 0.0);
+  EXPECT_EQ(coverage_estimate(5, 0, 0), 0.0);
+  EXPECT_EQ(coverage_estimate(0, 1, 7), 1.0);
+  constexpr double kKinds = 1e9;
+  for (double rate = 0.1; rate < 10.0; rate *= 1.3) {
+    const double none = std::exp(-rate), one = rate * none, two = 0.5 * rate * one;
+    const auto count = [](double share) { return static_cast<std::uint64_t>(kKinds * share); };
+    EXPECT_NEAR(coverage_estimate(count(one), count(two), count(1.0 - none - one - two)), 1.0 - none, 0.025)
+        << rate;
+  }
+}
+
 TEST(UnseenEstimateExample, CountsAsChaoDoes) {
   EXPECT_EQ(unseen_estimate(0, 0), 0.0);
   EXPECT_EQ(unseen_estimate(1, 0), 0.0);
