@@ -42,8 +42,10 @@ std::string largest_summary(const LargestFacets& found, const LargestReportConte
                       found.method == LargestMethod::kHull ? "the whole hull" : "rays and climbs",
                       to_string(found.status));
   if (found.largest_count > 0) {
-    text += fmt::format("areas     {:.6g} to {:.6g} {}\n", found.facets.front().area,
-                        found.facets[found.largest_count - 1].area, power_of_unit(found.rank - 1));
+    if (found.rank > 1) {  // the facets of a segment are its two ends, which are counted
+      text += fmt::format("areas     {:.6g} to {:.6g} {}\n", found.facets.front().area,
+                          found.facets[found.largest_count - 1].area, power_of_unit(found.rank - 1));
+    }
     double width = 0.0;
     for (const LargestFacet& facet : found.facets) {
       width = std::max(width, facet.outer_offset - facet.inner_offset);
