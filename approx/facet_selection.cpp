@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "approx/boundedness.h"
+#include "approx/volume_selection.h"
 
 namespace ndhull {
 namespace {
@@ -39,7 +40,12 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options)
   std::vector<bool> is_kept(hull.facet_count(), true);
   std::vector<std::uint32_t> ids(hull.facet_count());
   std::iota(ids.begin(), ids.end(), 0U);
-  if (options.largest) keep_first(*options.largest, ids, is_kept, is_larger);
+  if (options.largest && options.measure == SelectionMeasure::kVolume) {
+    is_kept.assign(is_kept.size(), false);
+    for (const FacetId facet : choose_for_volume(hull, *options.largest)) is_kept[facet.value] = true;
+  } else if (options.largest) {
+    keep_first(*options.largest, ids, is_kept, is_larger);
+  }
   if (options.most_merged) keep_first(*options.most_merged, ids, is_kept, is_more_merged);
   if (options.min_area) {
     for (const std::uint32_t id : ids) is_kept[id] = is_kept[id] && area(id) >= *options.min_area;

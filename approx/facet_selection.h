@@ -11,11 +11,18 @@
 
 namespace ndhull {
 
+/// What `largest` stands for.
+enum class SelectionMeasure {
+  kArea,    ///< the facets of largest area
+  kVolume,  ///< those whose outer planes together enclose little (approx/volume_selection.h)
+};
+
 /// Which facets to keep: those that every option that is set keeps. Without any: all of them.
 struct SelectionOptions {
-  std::optional<std::uint64_t> largest = {};      ///< so many of largest area (PAn)
-  std::optional<double> min_area = {};            ///< [area] those of at least this area (PFn)
-  std::optional<std::uint64_t> most_merged = {};  ///< so many of most simplices (PMn)
+  std::optional<std::uint64_t> largest = {};           ///< so many of largest area (PAn), or ..
+  SelectionMeasure measure = SelectionMeasure::kArea;  ///< .. by another measure
+  std::optional<double> min_area = {};                 ///< [area] those of at least this area (PFn)
+  std::optional<std::uint64_t> most_merged = {};       ///< so many of most simplices (PMn)
   bool bounded = false;  ///< add the fewest further facets that make the outer planes bound a region
 
   bool is_set() const { return largest || min_area || most_merged; }
@@ -33,6 +40,7 @@ struct FacetSelection {
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/boundedness.h), each of which is needed. Facets of a
 ///           hull always can bound a region. A hull without facets is a point, and bounded.
+/// Throws    Error kUsage as choose_for_volume does.
 /// Cost      O(facets) and a sort of those kept; a few linear programs over the planes selected, with
 ///           `bounded` over all planes when the selection is open.
 FacetSelection select_facets(const Hull& hull, const SelectionOptions& options);

@@ -32,8 +32,9 @@ double fewest_vertices(std::size_t rank, std::size_t facets) {
   return (d - 1.0) * static_cast<double>(facets) - (d + 1.0) * (d - 2.0);
 }
 
-/// The outer planes about the interior point, in coordinates of the subspace.
-PlanesAboutOrigin outer_planes(const Hull& hull, std::span<const FacetId> facets) {
+}  // namespace
+
+PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets) {
   const Eigen::MatrixXd directions = subspace_directions(hull.dimension, hull.subspace_equations);
   PlanesAboutOrigin planes;
   planes.rank = hull.rank;
@@ -55,8 +56,6 @@ PlanesAboutOrigin outer_planes(const Hull& hull, std::span<const FacetId> facets
   return planes;
 }
 
-}  // namespace
-
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
                          unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, ""};
@@ -66,7 +65,7 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   if (max_simplices > 0 && fewest_vertices(hull.rank, count) > static_cast<double>(max_simplices)) {
     return too_many;
   }
-  const PlanesAboutOrigin planes = outer_planes(hull, facets);
+  const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   for (const double height : planes.heights) {
     if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
   }

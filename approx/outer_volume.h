@@ -8,8 +8,13 @@
 #include <string>
 
 #include "approx/hull.h"
+#include "approx/plane_polytope.h"
 
 namespace ndhull {
+
+/// The certified outer planes of `facets` (none: of all facets) about the hull's interior point, in
+/// orthonormal coordinates of the subspace that the points span, input units.
+PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets);
 
 /// A volume, or why there is none.
 struct OuterVolume {

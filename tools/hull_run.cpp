@@ -21,6 +21,7 @@
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
+#include "tools/selection_options.h"
 
 namespace ndhull {
 namespace {
@@ -55,6 +56,7 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
   }
   if (!request.formats.empty()) formats = fmt::format("{}", fmt::join(request.formats, " "));
   return {{"largest", value_or_null(selection.largest)},
+          {"select", std::string(to_string(selection.measure))},
           {"min_area", value_or_null(selection.min_area)},
           {"most_merged", value_or_null(selection.most_merged)},
           {"bounded", selection.bounded},

@@ -1,14 +1,28 @@
 #include "tools/selection_options.h"
 
+#include <string>
+
 #include "core/error.h"
 #include "tools/command_options.h"
 
 namespace ndhull {
 
 void add_selection_options(CLI::App& command, SelectionOptions& selection) {
-  command.add_option("--largest", selection.largest, "select the N facets of largest area")
-      ->type_name("N")
-      ->check(whole_number(1));
+  CLI::Option* const largest =
+      command.add_option("--largest", selection.largest, "select the N facets of largest area")
+          ->type_name("N")
+          ->check(whole_number(1));
+  command
+      .add_option_function<std::string>(
+          "--select",
+          [&selection](const std::string& word) {
+            selection.measure = word == "volume" ? SelectionMeasure::kVolume : SelectionMeasure::kArea;
+          },
+          "what --largest means: area (default), or volume: the N facets whose outer planes together "
+          "enclose little")
+      ->type_name("MEASURE")
+      ->check(CLI::IsMember({"area", "volume"}).description(""))
+      ->needs(largest);
   command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
       ->type_name("A")
       ->check(positive_number());
@@ -19,6 +33,10 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
       ->check(whole_number(1));
   command.add_flag("--bounded", selection.bounded,
                    "add the fewest further facets that make the outer planes bound a region");
+}
+
+std::string_view to_string(SelectionMeasure measure) {
+  return measure == SelectionMeasure::kVolume ? "volume" : "area";
 }
 
 void check_selection(const SelectionOptions& selection) {

@@ -14,7 +14,7 @@ KEYS = """ndhull input status options length_unit vertices facets simplicial_fac
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
     interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
 OPTIONS = """max_facets max_seconds max_memory unit_cube triangulate threads seed largest
-    min_area most_merged bounded outer_volume planes plane_kind vertices report
+    select min_area most_merged bounded outer_volume planes plane_kind vertices report
     facet_list format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
 # A hull of some millions of facets: it takes long enough to be interrupted, and its few points make an end quick.

@@ -100,6 +100,23 @@ def test_the_outer_volume_is_that_of_the_intersection():
     assert report["volume"] < report["outer_volume"] < 2 * report["volume"]
 
 
+def test_planes_chosen_for_volume_enclose_less():
+    path = fresh_folder("select") / "points.npy"
+    for dimension, count in [(4, 200), (5, 100)]:
+        rbox(f"{count} s D{dimension} t1", path)
+        by_area = report_of(path, "--largest", 20, "--bounded")
+        by_volume = report_of(path, "--largest", 20, "--select", "volume", "--planes", path.with_name("planes.npy"))
+        assert by_area["options"]["select"] == "area" and by_volume["options"]["select"] == "volume"
+        assert by_volume["selected"]["facets"] == 20 and by_volume["selected"]["bounded"]
+        assert by_volume["volume"] < by_volume["outer_volume"] < 0.9 * by_area["outer_volume"]
+        assert "pass" in run("verify", path, path.with_name("planes.npy")).stdout
+    done = run("hull", path, "--largest", 5, "--select", "volume", exit_code=1)
+    one_error_line(done, "usage")
+    assert "at least 6" in done.stderr, done.stderr
+    for words in (["--select", "volume"], ["--largest", "9", "--select", "weight"]):
+        assert "--select" in run("hull", path, *words, exit_code=1).stderr
+
+
 def test_a_selection_of_everything_and_of_nothing():
     folder = fresh_folder("extremes")
     path = folder / "points.npy"

@@ -1,0 +1,111 @@
+// Outer planes chosen for the volume that they enclose: never more than the largest facets do.
+#include "approx/volume_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "approx/facet_selection.h"
+#include "approx/outer_volume.h"
+#include "core/error.h"
+#include "tests/hull/hull_support.h"
+#include "tests/support/degeneracies.h"
+
+namespace ndhull {
+namespace {
+
+double enclosed(const Hull& hull, const std::vector<FacetId>& facets) {
+  const OuterVolume outer = outer_volume(hull, facets, 0, 1);
+  EXPECT_TRUE(outer.volume) << outer.reason;
+  return outer.volume.value_or(0.0);
+}
+
+TEST(VolumeSelectionLaw, TwentyPlanesEncloseNoMoreThanTheTwentyLargestAndThoseThatCloseThem) {
+  std::size_t inputs = 0;
+  for (std::size_t d = 4; d <= 7; ++d) {
+    const std::size_t count = d < 6 ? 100 : 40;
+    for (const PointFamily family : {PointFamily::kSphere, PointFamily::kGaussian, PointFamily::kCube}) {
+      const Hull hull = hull_of(family_points(family, count, d, d));
+      SCOPED_TRACE("input " + std::to_string(inputs++) + ", d " + std::to_string(d));
+      const FacetSelection largest = select_facets(hull, {.largest = 20, .bounded = true});
+      const FacetSelection chosen =
+          select_facets(hull, {.largest = 20, .measure = SelectionMeasure::kVolume});
+      EXPECT_EQ(chosen.facets.size(), 20U);
+      EXPECT_TRUE(chosen.bounded);
+      EXPECT_TRUE(std::is_sorted(chosen.facets.begin(), chosen.facets.end()));
+      EXPECT_LE(enclosed(hull, chosen.facets), enclosed(hull, largest.facets));
+      EXPECT_GT(enclosed(hull, chosen.facets), hull.volume);
+    }
+  }
+  EXPECT_GE(inputs, 10U);
+}
+
+TEST(VolumeSelectionExample, TheSidesOfABoxAreFoundAmongManyFacets) {
+  // A cube whose corners are cut off: its 10 sides and 32 small facets.
+  PointSet cut;
+  cut.dimension = 5;
+  for (unsigned corner = 0; corner < 32; ++corner) {
+    for (std::size_t moved = 0; moved < 5; ++moved) {
+      for (std::size_t k = 0; k < 5; ++k) {
+        const double sign = (corner >> k & 1U) != 0 ? 1.0 : -1.0;
+        cut.coordinates.push_back(k == moved ? 0.75 * sign : sign);
+      }
+    }
+  }
+  const Hull hull = hull_of(cut);
+  ASSERT_EQ(hull.facet_count(), 42U);
+  const std::vector<FacetId> chosen = choose_for_volume(hull, 10);
+  ASSERT_EQ(chosen.size(), 10U);
+  EXPECT_NEAR(enclosed(hull, chosen), 32.0, 1e-10);
+}
+
+TEST(VolumeSelectionLaw, TheResultDoesNotDependOnThreadsOrUnits) {
+  const PointSet points = family_points(PointFamily::kSphere, 60, 5, 4);
+  const Hull hull = hull_of(points, {.threads = 1});
+  const std::vector<FacetId> chosen = choose_for_volume(hull, 12);
+  EXPECT_EQ(choose_for_volume(hull_of(points, {.threads = 3}), 12), chosen);
+  const std::vector<double> factors{0x1p-40, 1.0, 0x1p40, 0x1p3, 0x1p-7};
+  const Hull scaled = hull_of(axis_scaled(points, factors));
+  const double share = enclosed(hull, chosen) / hull.volume;
+  const double scaled_share = enclosed(scaled, choose_for_volume(scaled, 12)) / scaled.volume;
+  EXPECT_NEAR(scaled_share / share, 1.0, 0.3);
+}
+
+TEST(VolumeSelectionLaw, HardInputIsEnclosed) {
+  for (std::size_t d = 2; d <= 4; ++d) {
+    for (const DegenerateCase& hard : degenerate_cases(40, d, 11)) {
+      SCOPED_TRACE(hard.description + ", d " + std::to_string(d));
+      const Hull hull = hull_of(hard.points);
+      if (hull.rank == 0) continue;
+      const std::size_t count = std::min(hull.rank + 3, hull.facet_count());
+      const FacetSelection chosen =
+          select_facets(hull, {.largest = count, .measure = SelectionMeasure::kVolume});
+      EXPECT_TRUE(chosen.bounded);
+      EXPECT_GE(chosen.facets.size(), count);
+      // More only where none can be spared.
+      for (std::size_t left_out = 0; chosen.facets.size() > count && left_out <= count; ++left_out) {
+        std::vector<FacetId> fewer = chosen.facets;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
+        EXPECT_EQ(outer_volume(hull, fewer, 0, 1).reason, "the outer planes do not bound a region");
+      }
+    }
+  }
+}
+
+TEST(VolumeSelectionExample, AllFacetsNoneAndTooFew) {
+  const Hull hull = hull_of(cube(4).points);
+  EXPECT_EQ(choose_for_volume(hull, 8).size(), 8U);
+  EXPECT_EQ(choose_for_volume(hull, 100).size(), 8U);
+  EXPECT_EQ(choose_for_volume(hull, 5).size(), 8U);
+  try {
+    choose_for_volume(hull, 4);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("at least 5"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(choose_for_volume(hull_of({.dimension = 2, .coordinates = {1.0, 2.0}}), 3).empty());
+}
+
+}  // namespace
+}  // namespace ndhull
