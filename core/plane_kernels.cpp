@@ -122,7 +122,7 @@ void mark_flat_of(const SimplicialComplex& complex, const double* points, double
 }
 
 // One simplex a lane.
-template <std::size_t D>
+template <std::size_t D, bool kPivots>
 void solve_block(const double* const* rows, double* dual_out, double* determinant_out) {
   const Tag tag;
   const std::size_t lanes = hn::Lanes(tag);
@@ -138,9 +138,27 @@ void solve_block(const double* const* rows, double* dual_out, double* determinan
     for (std::size_t k = 0; k < D; ++k) matrix[i][k] = hn::Load(tag, entries + (i * D + k) * lanes);
     matrix[i][D] = hn::Set(tag, 1.0);
   }
-  const Lane determinant = eliminate<D>(matrix, dual);
+  const Lane determinant = eliminate<D, kPivots>(matrix, dual);
   for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, dual_out + k * lanes);
   hn::StoreU(determinant, tag, determinant_out);
+}
+
+/// Do all lanes' solved planes agree with those of growth? Then the elimination has lost no digits to speak
+/// of, and the determinants are as good. Simplices that are thin enough to fail are few.
+template <std::size_t D>
+bool agree(const SimplicialComplex& complex, std::size_t begin, std::size_t used, const double* solved,
+           std::size_t lanes) {
+  constexpr double kAgreement = 1e-11;
+  for (std::size_t lane = 0; lane < used; ++lane) {
+    const double* plane = complex.planes.data() + (begin + lane) * D;
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t k = 0; k < D; ++k) {
+      largest = std::max(largest, std::abs(plane[k]));
+      difference += std::abs(solved[k * lanes + lane] - plane[k]);  // keeps NaN
+    }
+    if (!(difference <= kAgreement * largest)) return false;
+  }
+  return true;
 }
 
 /// Takes the solved plane when it is one: finite and near the plane that growth made.
@@ -170,7 +188,11 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points, bool r
       const auto vertices = complex.vertices(simplex);
       for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
     }
-    solve_block<D>(rows.data(), dual.data(), determinant.data());
+    // Planes that are not to be replaced say whether pivots are needed.
+    if (!replace_planes) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
+    if (replace_planes || !agree<D>(complex, begin, used, dual.data(), lanes)) {
+      solve_block<D, true>(rows.data(), dual.data(), determinant.data());
+    }
     for (std::size_t lane = 0; lane < used; ++lane) {
       // A zero pivot, of a simplex without volume, turns into NaN further down.
       determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;

@@ -46,7 +46,9 @@ void mark_flat(const SimplicialComplex& complex, const double* points, double to
 /// Planes  with `replace_planes` the complex's planes (made from shifted points) are replaced by the solved
 ///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
 ///         has no plane of its own to speak of.
-/// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination with partial pivoting.
+/// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination, with partial pivoting where
+/// planes are
+///         replaced or where without it the solved plane differs from growth's by more than 1e-11.
 void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,
                      std::span<double> determinants);
 
