@@ -27,6 +27,52 @@ double dot(const double* a, const double* b) {
   return sum;
 }
 
+/// A few simplices from all over the hull, to start climbing from the one whose product is highest: one pass
+/// over their planes costs as much as one step and spares several.
+template <std::size_t D>
+class StartingPlaces {
+ public:
+  explicit StartingPlaces(const SimplicialComplex& complex) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      std::size_t row = i * complex.row_count / kCount;
+      while (complex.state[row] != SimplexState::kLive) row = row + 1 < complex.row_count ? row + 1 : 0;
+      simplices_[i] = SimplexId{static_cast<std::uint32_t>(row)};
+      for (std::size_t k = 0; k < D; ++k) planes_[k * kCount + i] = complex.planes[row * D + k];
+    }
+  }
+
+  /// The place with the highest product, or `other` when its product is as high.
+  SimplexId nearest(const SimplicialComplex& complex, const double* y, SimplexId other) const {
+    const Tag tag;
+    const std::size_t lanes = hn::Lanes(tag);
+    Lane best = hn::Set(tag, -HUGE_VAL), place_of_best = hn::Zero(tag), places = hn::Iota(tag, 0.0);
+    for (std::size_t i = 0; i < kCount; i += lanes) {
+      Lane product = hn::Mul(hn::LoadU(tag, planes_ + i), hn::Set(tag, y[0]));
+      for (std::size_t k = 1; k < D; ++k) {
+        product = hn::MulAdd(hn::LoadU(tag, planes_ + k * kCount + i), hn::Set(tag, y[k]), product);
+      }
+      place_of_best = hn::IfThenElse(hn::Gt(product, best), places, place_of_best);
+      best = hn::Max(best, product);
+      places = hn::Add(places, hn::Set(tag, static_cast<double>(lanes)));
+    }
+    HWY_ALIGN double products[HWY_MAX_BYTES / sizeof(double)], numbers[HWY_MAX_BYTES / sizeof(double)];
+    hn::Store(best, tag, products);
+    hn::Store(place_of_best, tag, numbers);
+    double highest = dot<D>(complex.plane(other).data(), y);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (products[lane] <= highest) continue;
+      highest = products[lane];
+      other = simplices_[static_cast<std::size_t>(numbers[lane])];
+    }
+    return other;
+  }
+
+ private:
+  static constexpr std::size_t kCount = 64;  // a multiple of all vectors' lanes
+  double planes_[D * kCount];
+  SimplexId simplices_[kCount];
+};
+
 /// From `start`, to the neighbour with the highest plane product until none is higher.
 template <std::size_t D>
 SimplexId climb(const SimplicialComplex& complex, const double* y, SimplexId start) {
@@ -101,12 +147,16 @@ void locate_all(const SimplicialComplex& complex, const double* points, const Hu
   const std::size_t lanes = hn::Lanes(Tag());
   SimplexId start{0};
   while (complex.state[start.value] != SimplexState::kLive) ++start.value;  // growth leaves free rows
+  const StartingPlaces<D> places(complex);
   for (std::size_t begin = 0; begin < located.size(); begin += lanes) {
     LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
     const std::size_t used = std::min(lanes, located.size() - begin);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       block[lane] = located[begin + std::min(lane, used - 1)];
-      if (lane < used) start = climb<D>(complex, points + std::size_t{block[lane].point.value} * D, start);
+      if (lane < used) {
+        const double* y = points + std::size_t{block[lane].point.value} * D;
+        start = climb<D>(complex, y, places.nearest(complex, y, start));
+      }
       block[lane].simplex = start;
     }
     prove_block<D>(complex, points, ball, block);
