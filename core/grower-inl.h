@@ -184,13 +184,14 @@ void Grower<D>::drop_first(std::uint32_t row) {
     const std::uint32_t id = rest - 1;
     rest = work_.next_outside[id];
     --work_.points_outside;
-    push_outside(work_, id, row, work_.gauge[id]);
+    push_outside(work_, id, row, work_.height[id]);
   }
 }
 
 template <std::size_t D>
 void Grower<D>::partition(std::uint32_t apex) {
   std::uint32_t start = new_rows_[0];
+  const double least = least_height(work_);
   for (std::size_t i = 0; i < visible_count_; ++i) {
     const std::uint32_t row = visible_[i];
     std::uint32_t next = head_[row];
@@ -204,7 +205,9 @@ void Grower<D>::partition(std::uint32_t apex) {
       double gauge = 0.0;
       const std::uint32_t found = locate(point(id), start, gauge);
       start = found;
-      if (gauge > 2.0 * work_.options.shift) push_outside(work_, id, found, gauge);
+      if (gauge <= 2.0 * work_.options.shift) continue;
+      const double height = height_above(work_, found, gauge);
+      if (height > least) push_outside(work_, id, found, height);
     }
     work_.free_rows[work_.free_count++] = row;
   }
@@ -280,7 +283,7 @@ GrowthStop Grower<D>::run() {
     const OutsideSet furthest = work_.pending.front();
     const std::uint32_t row = furthest.row;
     if (state_[row] != SimplexState::kLive || head_[row] == 0 ||
-        work_.gauge[head_[row] - 1] != furthest.gauge) {
+        work_.height[head_[row] - 1] != furthest.height) {
       std::pop_heap(work_.pending.begin(), work_.pending.end());
       work_.pending.pop_back();
       continue;
@@ -291,7 +294,7 @@ GrowthStop Grower<D>::run() {
     }
     const std::uint32_t apex_id = head_[row] - 1;
     if (work_.options.poll && work_.counters.created >= polled_at) {
-      const GrowthStop stop = work_.options.poll(work_.points_outside, work_.gauge[apex_id]);
+      const GrowthStop stop = work_.options.poll(work_.points_outside, furthest.height);
       if (stop != GrowthStop::kNoOutsidePoints) return stop;
       polled_at = work_.counters.created + 4096;
     }

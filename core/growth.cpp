@@ -37,16 +37,33 @@ void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, doub
 
 }  // namespace
 
-void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double gauge) {
-  work.gauge[point] = gauge;
+double height_above(const GrowthWork& work, std::uint32_t row, double gauge) {
+  const std::vector<double>& factor = work.options.gradient_factor;
+  if (factor.empty()) return gauge;
+  const double* plane = work.complex.planes.data() + std::size_t{row} * work.rank;
+  double gradient_sq = 0.0;
+  for (std::size_t i = 0; i < work.rank; ++i) {
+    double entry = 0.0;
+    for (std::size_t k = i; k < work.rank; ++k) entry += factor[i * work.rank + k] * plane[k];
+    gradient_sq += entry * entry;
+  }
+  return gauge / std::sqrt(gradient_sq);
+}
+
+double least_height(const GrowthWork& work) {
+  return work.options.gradient_factor.empty() ? 2.0 * work.options.shift : work.options.outside_width;
+}
+
+void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height) {
+  work.height[point] = height;
   std::uint32_t& head = work.complex.outside_head[row];
-  if (head != 0 && gauge <= work.gauge[head - 1]) {
+  if (head != 0 && height <= work.height[head - 1]) {
     work.next_outside[point] = work.next_outside[head - 1];
     work.next_outside[head - 1] = point + 1;
   } else {
     work.next_outside[point] = head;
     head = point + 1;
-    work.pending.push_back({gauge, row});
+    work.pending.push_back({height, row});
     std::push_heap(work.pending.begin(), work.pending.end());
   }
   ++work.points_outside;
@@ -57,7 +74,7 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
   work.complex = SimplicialComplex(work.rank, capacity);
   work.free_rows = HugeArray<std::uint32_t>(capacity);
   work.next_outside.assign(work.point_count, 0);
-  work.gauge.assign(work.point_count, 0.0);
+  work.height.assign(work.point_count, 0.0);
   SimplicialComplex& complex = work.complex;
   complex.row_count = work.rank + 1;
   for (std::uint32_t row = 0; row <= work.rank; ++row) {
@@ -75,6 +92,7 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
     solve_plane(work, complex.vertices(SimplexId{row}), complex.planes.data() + row * work.rank);
     complex.state[row] = SimplexState::kLive;
   }
+  const double least = least_height(work);
   std::vector<bool> is_vertex(work.point_count, false);
   for (const PointId id : simplex) is_vertex[id.value] = true;
   for (std::uint32_t id = 0; id < work.point_count; ++id) {
@@ -90,7 +108,9 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
         best_row = row;
       }
     }
-    if (best > 2.0 * work.options.shift) push_outside(work, id, best_row, best);
+    if (best <= 2.0 * work.options.shift) continue;
+    const double height = height_above(work, best_row, best);
+    if (height > least) push_outside(work, id, best_row, height);
   }
 }
 

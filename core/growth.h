@@ -27,12 +27,18 @@ struct GrowthOptions {
   /// of it. 1e-12 is some 4,000 times the rounding error of one decision and still far below data noise;
   /// core/DESIGN.md has the experiment.
   double shift = 1e-12;
+  /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are.
+  double outside_width = 0.0;
+  /// rank x rank, row-major: |R a| is the gradient of the gauge above plane a, per length unit, so that a
+  /// distance is a gauge / |R a|. Empty: how far outside a point is goes by its gauge, and no width may be
+  /// set.
+  std::vector<double> gradient_factor;
   std::uint64_t seed = 1;
   std::uint64_t pause_rows = 0;  ///< growth returns kPaused once when it has this many simplices; 0: never
   std::uint64_t max_rows = 0;    ///< 0: no limit on simplices
   std::uint64_t max_memory_bytes = 0;  ///< 0: no limit on the complex's tables
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
-  std::function<GrowthStop(std::uint64_t points_left, double furthest_gauge)> poll;
+  std::function<GrowthStop(std::uint64_t points_left, double furthest)> poll;
 };
 
 struct GrowthCounters {
@@ -46,10 +52,10 @@ struct GrowthCounters {
 
 /// An outside set in the queue; stale when its simplex is gone or its furthest point has changed.
 struct OutsideSet {
-  double gauge;  ///< of the furthest point
+  double height;  ///< of the furthest point
   std::uint32_t row;
   bool operator<(const OutsideSet& other) const {  // ties by id: the order must not depend on the heap
-    return gauge != other.gauge ? gauge < other.gauge : row > other.row;
+    return height != other.height ? height < other.height : row > other.row;
   }
 };
 
@@ -64,7 +70,7 @@ struct GrowthWork {
   std::size_t free_count = 0;
 
   std::vector<std::uint32_t> next_outside;  ///< per point: next of the same outside set + 1, 0 at the end
-  std::vector<double> gauge;                ///< per point: gauge above the simplex that holds it
+  std::vector<double> height;               ///< per point: height above the simplex that holds it
   std::vector<OutsideSet> pending;          ///< heap: the set with the furthest point of all comes first
   std::uint64_t points_outside = 0;
 
@@ -81,8 +87,15 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex);
 /// after `push_outside`.
 GrowthStop grow(GrowthWork& work);
 
-/// Puts `point` into the outside set of simplex `row`, which it is above by `gauge`. The furthest point of a
+/// How far a point with this gauge is above simplex `row`: its distance in length units, or the gauge itself
+/// when there is no gradient factor.
+double height_above(const GrowthWork& work, std::uint32_t row, double gauge);
+
+/// Height from which on a point counts as outside.
+double least_height(const GrowthWork& work);
+
+/// Puts `point` into the outside set of simplex `row`, which it is above by `height`. The furthest point of a
 /// set comes first, the rest in no order.
-void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double gauge);
+void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height);
 
 }  // namespace ndhull
