@@ -11,7 +11,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "approx/approximation.h"
+#include "approx/certified_growth.h"
 #include "approx/coplanar_merge.h"
+#include "approx/facet_layout.h"
 #include "approx/facet_table.h"
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
@@ -28,27 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Repair rounds after which the rest is reported, not chased. One or two are what degenerate inputs need.
-constexpr std::uint64_t kRepairRounds = 8;
-/// Points further inside than this need no look at their distance from each plane. [ratio]
-constexpr double kWellInside = 1e-9;
-/// Points from which on an early proof pays.
-constexpr std::size_t kManyPoints = 4096;
-/// Plane-times-point products that are worth certifying points near the hull one by one.
-constexpr double kAffordableProducts = 4e11;
-
-HullStatus status_of(GrowthStop stop) {
-  switch (stop) {
-    case GrowthStop::kNoOutsidePoints:
-    case GrowthStop::kPaused: return HullStatus::kComplete;
-    case GrowthStop::kFacetLimit: return HullStatus::kFacetLimit;
-    case GrowthStop::kTimeLimit: return HullStatus::kTimeLimit;
-    case GrowthStop::kMemoryLimit: return HullStatus::kMemoryLimit;
-    case GrowthStop::kInterrupted: return HullStatus::kInterrupted;
-  }
-  return HullStatus::kComplete;
 }
 
 }  // namespace
@@ -68,23 +50,27 @@ class HullBuilder {
     }
     describe_input();
     if (frame_.rank == 0) return std::move(hull_);
-    coordinates_.resize(points_.rows * frame_.rank + 8);
-    map_points(points_, frame_, coordinates_.data());
-    detail("frame", start_);
+    const bool is_exact = options_.accuracy.is_exact() || frame_.rank == 1;
+    std::vector<double> factor;
+    if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
+    growth_.emplace(points_, frame_, factor, options_, start_, hull_);
     if (frame_.rank == 1) {
-      make_segment();
+      growth_->make_segment();
+    } else if (is_exact) {
+      growth_->grow_exactly();
     } else {
-      grow_and_certify();
+      approximate(factor);
     }
     const Clock::time_point merge_start = Clock::now();
-    compact(work_.complex);
+    compact(complex());
     merge();
     make_facets();
-    seconds(Phase::kMerge) = seconds_since(merge_start);
+    seconds(Phase::kMerge) += seconds_since(merge_start);
     return std::move(hull_);
   }
 
  private:
+  SimplicialComplex& complex() { return growth_->work().complex; }
   double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
   void detail(std::string_view name, Clock::time_point since) {
     hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
@@ -101,173 +87,43 @@ class HullBuilder {
     hull_.subspace_equations = find_subspace_equations(frame_);
   }
 
-  /// rank 1: the two ends, each a facet with one vertex.
-  void make_segment() {
-    std::uint32_t low = 0, high = 0;
-    for (std::uint32_t id = 0; id < points_.rows; ++id) {
-      if (coordinates_[id] < coordinates_[low]) low = id;
-      if (coordinates_[id] > coordinates_[high]) high = id;
+  /// Grows as far as the accuracy asks for and finds the facets.
+  void approximate(const std::vector<double>& factor) {
+    const Clock::time_point begin = Clock::now();
+    const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
+    clusters_ = Approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_).run();
+    std::size_t used = 0;
+    for (std::size_t row = 0; row < clusters_.cluster_of.size(); ++row) {
+      if (complex().state[row] == SimplexState::kLive)
+        clusters_.cluster_of[used++] = clusters_.cluster_of[row];
     }
-    work_.complex = SimplicialComplex(1, 2);
-    work_.complex.row_count = 2;
-    const std::uint32_t ends[2] = {low, high};
-    for (std::uint32_t row = 0; row < 2; ++row) {
-      work_.complex.topology[2 * row] = ends[row];
-      work_.complex.topology[2 * row + 1] = 1 - row;
-      work_.complex.planes[row] = 1.0 / coordinates_[ends[row]];
-      work_.complex.state[row] = SimplexState::kLive;
-    }
-    certificate_wanted_.assign(points_.rows, true);
-  }
-
-  GrowthStop poll(std::uint64_t points_left, double furthest_gauge) {
-    const std::uint64_t rows = work_.complex.row_count - work_.free_count;
-    const std::uint64_t bytes =
-        work_.complex.row_count * (16 * frame_.rank + 5) + coordinates_.size() * 8 + points_.rows * 12;
-    if (options_.progress) {
-      options_.progress({Phase::kGrowth, points_left, rows, furthest_gauge, seconds_since(start_), bytes});
-    }
-    if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
-    const Limits& limits = options_.limits;
-    if (limits.max_seconds > 0.0 && seconds_since(start_) > limits.max_seconds) return GrowthStop::kTimeLimit;
-    // The facet table takes about as much again for each simplex as is kept of the planes.
-    const std::uint64_t at_end = bytes + rows * (8 * frame_.dimension + 40);
-    if (limits.max_memory_bytes > 0 && at_end > limits.max_memory_bytes) return GrowthStop::kMemoryLimit;
-    return GrowthStop::kNoOutsidePoints;
-  }
-
-  void grow_and_certify() {
-    work_.rank = frame_.rank;
-    work_.point_count = points_.rows;
-    work_.points = coordinates_.data();
-    work_.measure_phases = true;
-    work_.options.seed = options_.seed;
-    work_.options.max_rows = options_.limits.max_facets;
-    work_.options.poll = [this](std::uint64_t left, double gauge) { return poll(left, gauge); };
-    Clock::time_point phase_start = Clock::now();
-    start_growth(work_, frame_.simplex);
-    detail("first partition", phase_start);
-    const HullBall ball = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
-    std::uint64_t searched_all = 0;
-    if (points_.rows > kManyPoints) prove_early(ball);
-    for (std::uint64_t round = 0;; ++round) {
-      phase_start = Clock::now();
-      const GrowthStop stop = grow(work_);
-      hull_.status = status_of(stop);
-      seconds(Phase::kGrowth) += seconds_since(phase_start);
-      phase_start = Clock::now();
-      const std::vector<LocatedPoint> located =
-          prove_inside(work_.complex, coordinates_.data(), ball, points_off_the_complex(), searched_all);
-      const bool repaired =
-          stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && put_back(located);
-      if (!repaired) choose_certificate_points(located);
-      seconds(Phase::kCertify) += seconds_since(phase_start);
-      if (!repaired) break;
-      ++hull_.statistics.repair_rounds;
-    }
-    const GrowthCounters& counters = work_.counters;
-    HullStatistics& statistics = hull_.statistics;
-    statistics.created_simplices = counters.created;
-    statistics.insertions = counters.insertions;
-    statistics.shifted_points = counters.shifted;
-    statistics.rejected_insertions = counters.rejected;
-    statistics.detail_seconds.emplace_back("visible set", counters.seconds_visible);
-    statistics.detail_seconds.emplace_back("cone", counters.seconds_cone);
-    statistics.detail_seconds.emplace_back("matching", counters.seconds_match);
-    statistics.detail_seconds.emplace_back("partition", counters.seconds_partition);
-    statistics.detail_seconds.emplace_back("points inside", seconds(Phase::kCertify));
-  }
-
-  /// Most of many points are well inside a small hull already. What is proven inside a part of the hull is
-  /// inside the whole, and the part's simplices are few and in cache.
-  void prove_early(const HullBall& ball) {
-    Clock::time_point start = Clock::now();
-    work_.options.pause_rows = 128 * frame_.rank;
-    const GrowthStop stop = grow(work_);
-    work_.options.pause_rows = 0;
-    seconds(Phase::kGrowth) += seconds_since(start);
-    if (stop != GrowthStop::kPaused) return;  // finished, or ended by a limit: the final proof comes next
-    start = Clock::now();
-    const std::vector<PointId> candidates = points_off_the_complex();
-    proven_.assign(points_.rows, false);
-    for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball, candidates)) {
-      if (point.gauge < -kWellInside) proven_[point.point.value] = true;
-    }
-    seconds(Phase::kCertify) += seconds_since(start);
-  }
-
-  /// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
-  std::vector<PointId> points_off_the_complex() {
-    certificate_wanted_.assign(points_.rows, false);
-    for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) {
-      if (work_.complex.state[row] != SimplexState::kLive) continue;
-      for (const PointId id : work_.complex.vertices(SimplexId{row})) certificate_wanted_[id.value] = true;
-    }
-    std::vector<PointId> rest;
-    for (std::uint32_t id = 0; id < points_.rows; ++id) {
-      if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});
-    }
-    return rest;
-  }
-
-  /// Points more than four shifts outside go back; true when there were any.
-  bool put_back(const std::vector<LocatedPoint>& located) {
-    bool any = false;
-    for (const LocatedPoint& point : located) {
-      if (point.gauge <= 4.0 * work_.options.shift) continue;
-      double gauge = -1.0;
-      const auto plane = work_.complex.plane(point.simplex);
-      for (std::size_t k = 0; k < frame_.rank; ++k)
-        gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
-      if (gauge <= 2.0 * work_.options.shift) continue;
-      push_outside(work_, point.point.value, point.simplex.value, gauge);
-      any = true;
-    }
-    return any;
-  }
-
-  /// Vertices, and points so near the hull (or outside, after a limit) that only their distances will do.
-  /// When that would cost too much the points outside are covered by their gauge.
-  void choose_certificate_points(const std::vector<LocatedPoint>& located) {
-    std::size_t near_count = 0;
-    double largest_gauge = 0.0;
-    for (const LocatedPoint& point : located) {
-      largest_gauge = std::max(largest_gauge, point.gauge);
-      near_count += point.gauge > -kWellInside ? 1 : 0;
-    }
-    hull_.max_outside_gauge = largest_gauge;
-    const double live = static_cast<double>(work_.complex.row_count - work_.free_count);
-    const double products = live * static_cast<double>(near_count) * static_cast<double>(frame_.dimension);
-    if (products > kAffordableProducts && std::isfinite(largest_gauge)) {
-      // Rounding of the frame's coordinates is far below this.
-      covered_gauge_ = largest_gauge + 1e-14;
-      return;
-    }
-    for (const LocatedPoint& point : located) {
-      if (point.gauge > -kWellInside) certificate_wanted_[point.point.value] = true;
-    }
+    clusters_.cluster_of.resize(used);
+    seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
   }
 
   void merge() {
     const Clock::time_point start = Clock::now();
-    determinants_ = HugeArray<double>(work_.complex.row_count);
-    const std::span<double> determinants(determinants_.data(), work_.complex.row_count);
-    const bool shifted = work_.counters.shifted > 0;
+    determinants_ = HugeArray<double>(complex().row_count);
+    const std::span<double> determinants(determinants_.data(), complex().row_count);
+    const bool shifted = growth_->work().counters.shifted > 0;
     if (frame_.rank >= 2) {
-      solve_simplices(work_.complex, coordinates_.data(), shifted, determinants);
+      solve_simplices(complex(), growth_->coordinates(), shifted, determinants);
     } else {
-      for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / work_.complex.planes[row]);
+      for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / complex().planes[row]);
     }
     orient(determinants);
     detail("volumes", start);
     // Without a shifted point every decision was clearer than the shift: all ridges are convex.
-    if (!shifted || options_.triangulate) {
-      hull_.layout_ = simplicial_layout(work_.complex);
+    if (clusters_.count == 0 && (!shifted || options_.triangulate)) {
+      hull_.layout_ = simplicial_layout(complex());
       return;
     }
     const Clock::time_point merge_start = Clock::now();
-    hull_.layout_ =
-        merge_coplanar(work_.complex, coordinates_.data(), determinants, 4.0 * work_.options.shift);
+    hull_.is_approximate = clusters_.count > 0;
+    if (!hull_.is_approximate)
+      clusters_ = merge_coplanar(complex(), growth_->coordinates(), determinants,
+                                 4.0 * growth_->work().options.shift);
+    hull_.layout_ = lay_out(complex(), determinants, clusters_, gradient_factor(frame_, LengthUnit()));
     detail("coplanar merging", merge_start);
   }
 
@@ -279,20 +135,30 @@ class HullBuilder {
     for (double& determinant : determinants) determinant = -determinant;
   }
 
+  std::vector<bool> find_corners() {
+    std::vector<bool> is_corner(points_.rows, false);
+    for (std::uint32_t row = 0; row < complex().row_count; ++row)
+      for (const PointId id : complex().vertices(SimplexId{row})) is_corner[id.value] = true;
+    return is_corner;
+  }
+
   void make_facets() {
     Clock::time_point start = Clock::now();
-    is_vertex_ = find_vertices(work_.complex, hull_.layout_, points_.rows);
+    // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
+    is_vertex_ =
+        hull_.is_approximate ? find_corners() : find_vertices(complex(), hull_.layout_, points_.rows);
     for (std::uint32_t id = 0; id < points_.rows; ++id) {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
-    const CertificatePoints certificate = gather_certificate_points(points_, frame_, certificate_wanted_);
+    const CertificatePoints certificate =
+        gather_certificate_points(points_, frame_, growth_->certificate_wanted());
     hull_.reference = certificate.reference;
-    coordinates_ = std::vector<double>();
+    growth_->release_coordinates();
     detail("vertices", start);
     start = Clock::now();
-    FacetTable table =
-        make_facet_table(work_.complex, hull_.layout_, frame_, certificate,
-                         {determinants_.data(), work_.complex.row_count}, hull_.length_unit_, covered_gauge_);
+    FacetTable table = make_facet_table(complex(), hull_.layout_, frame_, certificate,
+                                        {determinants_.data(), complex().row_count}, hull_.length_unit_,
+                                        growth_->covered_gauge());
     detail("facet table", start);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);
@@ -305,10 +171,10 @@ class HullBuilder {
     hull_.roundoff = table.roundoff;
     hull_.area = table.area;
     hull_.volume = table.volume;
-    hull_.own_ids_.resize(work_.complex.row_count);
-    for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
+    hull_.own_ids_.resize(complex().row_count);
+    for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
     list_irregular_facets();
-    hull_.simplices = std::move(work_.complex);
+    hull_.simplices = std::move(complex());
   }
 
   /// Vertices and neighbours of the facets that are merged or have a merged neighbour.
@@ -322,12 +188,12 @@ class HullBuilder {
       const bool simplicial = hull_.is_simplicial(FacetId{facet});
       seen_facet[facet] = facet;
       for (const SimplexId simplex : hull_.simplices_of(FacetId{facet})) {
-        for (const PointId id : work_.complex.vertices(simplex)) {
+        for (const PointId id : complex().vertices(simplex)) {
           if (seen_vertex[id.value] == facet || !is_vertex_[id.value]) continue;
           seen_vertex[id.value] = facet;
           vertices.values.push_back(id.value);
         }
-        for (const SimplexId neighbour : work_.complex.neighbours(simplex)) {
+        for (const SimplexId neighbour : complex().neighbours(simplex)) {
           const std::uint32_t other = layout.facet_of(neighbour).value;
           if (!simplicial && seen_facet[other] == facet) continue;
           seen_facet[other] = facet;
@@ -348,11 +214,8 @@ class HullBuilder {
   Clock::time_point start_;
   Hull hull_;
   Frame frame_;
-  std::vector<double> coordinates_;  // points x rank, in the frame
-  GrowthWork work_;
-  std::vector<bool> certificate_wanted_;
-  std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
-  double covered_gauge_ = 0.0;
+  std::optional<CertifiedGrowth> growth_;
+  FacetClusters clusters_;  // of an approximate hull; none: coplanar simplices are merged
   HugeArray<double> determinants_;
   std::vector<bool> is_vertex_;
 };

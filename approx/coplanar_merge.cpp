@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "core/plane_kernels.h"
 
@@ -16,16 +15,16 @@ using ConstRow = Eigen::Map<const Vector>;
 
 class Merger {
  public:
-  Merger(SimplicialComplex& complex, const double* points, std::span<double> determinants, double tolerance)
+  Merger(const SimplicialComplex& complex, const double* points, std::span<const double> determinants,
+         double tolerance)
       : complex_(complex), points_(points), determinants_(determinants), tolerance_(tolerance) {}
 
-  FacetLayout run() {
+  FacetClusters run() {
     has_flat_ridge_.assign(complex_.row_count, 0);
     mark_flat(complex_, points_, tolerance_, has_flat_ridge_);
     grow_facets();
     absorb_slivers();
-    order_rows();
-    return take_planes();
+    return facets();
   }
 
  private:
@@ -275,121 +274,35 @@ class Merger {
     from.joined = host;
   }
 
-  /// Regular rows first, then simplices beside a merged facet, then the merged facets' simplices, facet by
-  /// facet. Few rows move where few are merged: what is in its part already stays.
-  void order_rows() {
-    const auto count = static_cast<std::uint32_t>(complex_.row_count);
-    std::vector<std::uint32_t> merged_of(count, kNone);  // facet among the merged ones
-    std::uint32_t merged_count = 0, merged_simplices = 0;
+  /// Numbers the facets of more than one simplex.
+  FacetClusters facets() const {
+    FacetClusters result;
+    result.cluster_of.assign(complex_.row_count, kNone);
     for (const Cluster& cluster : clusters_) {
       if (cluster.simplices.size() < 2) continue;
-      for (const std::uint32_t simplex : cluster.simplices) merged_of[simplex] = merged_count;
-      merged_simplices += static_cast<std::uint32_t>(cluster.simplices.size());
-      merged_planes_.push_back(cluster.plane);
-      ++merged_count;
+      for (const std::uint32_t simplex : cluster.simplices) result.cluster_of[simplex] = result.count;
+      result.planes.insert(result.planes.end(), cluster.plane.data(), cluster.plane.data() + rank());
+      ++result.count;
     }
-    std::vector<std::uint32_t> beside, merged;
-    std::vector<std::uint8_t> is_regular(count, 1);
-    for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
-      if (!has_flat_ridge_[simplex] || merged_of[simplex] == kNone) continue;
-      merged.push_back(simplex);
-      is_regular[simplex] = 0;
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
-        if (merged_of[neighbour.value] != kNone || !is_regular[neighbour.value]) continue;
-        is_regular[neighbour.value] = 0;
-        beside.push_back(neighbour.value);
-      }
-    }
-    std::sort(beside.begin(), beside.end());
-    // Merged facets in the order of their first simplex, each one's simplices ascending.
-    std::vector<std::uint32_t> rank_of(merged_count, kNone), planes_order;
-    for (const std::uint32_t simplex : merged) {
-      if (rank_of[merged_of[simplex]] != kNone) continue;
-      rank_of[merged_of[simplex]] = static_cast<std::uint32_t>(planes_order.size());
-      planes_order.push_back(merged_of[simplex]);
-    }
-    std::stable_sort(merged.begin(), merged.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return rank_of[merged_of[a]] < rank_of[merged_of[b]];
-    });
-    layout_.simplicial = count - merged_simplices;
-    layout_.regular = layout_.simplicial - beside.size();
-    layout_.facets = layout_.simplicial + merged_count;
-    layout_.merged_begin.push_back(static_cast<std::uint32_t>(layout_.simplicial));
-    for (std::size_t i = 0; i < merged.size(); ++i) {
-      const FacetId facet{static_cast<std::uint32_t>(layout_.simplicial) + rank_of[merged_of[merged[i]]]};
-      layout_.facet_of_merged.push_back(facet);
-      if (i + 1 == merged.size() || merged_of[merged[i + 1]] != merged_of[merged[i]]) {
-        layout_.merged_begin.push_back(static_cast<std::uint32_t>(layout_.simplicial + i + 1));
-      }
-    }
-    std::vector<Vector> ordered;
-    for (const std::uint32_t from : planes_order) ordered.push_back(std::move(merged_planes_[from]));
-    merged_planes_ = std::move(ordered);
-
-    // Regular rows behind the front part fill the places that others leave there.
-    std::vector<std::uint32_t> tail = beside;
-    tail.insert(tail.end(), merged.begin(), merged.end());
-    std::vector<std::uint32_t> old_of_new(count);
-    std::iota(old_of_new.begin(), old_of_new.end(), 0u);
-    std::uint32_t from = static_cast<std::uint32_t>(layout_.regular);
-    for (std::uint32_t row = 0; row < layout_.regular; ++row) {
-      if (is_regular[row]) continue;
-      while (!is_regular[from]) ++from;
-      old_of_new[row] = from++;
-    }
-    std::copy(tail.begin(), tail.end(), old_of_new.begin() + static_cast<std::ptrdiff_t>(layout_.regular));
-    permute_rows(complex_, old_of_new);
-    permute_values(determinants_, old_of_new);
+    return result;
   }
 
-  static void permute_values(std::span<double> values, std::span<const std::uint32_t> old_of_new) {
-    std::vector<std::pair<std::uint32_t, double>> moved;
-    for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
-      if (old_of_new[row] != row) moved.emplace_back(row, values[old_of_new[row]]);
-    }
-    for (const auto& [row, value] : moved) values[row] = value;
-  }
-
-  /// Facet planes and determinants take the place of the simplices': a merged facet's row is never behind its
-  /// first simplex.
-  FacetLayout take_planes() {
-    const std::size_t rank_of_points = complex_.rank;
-    for (std::size_t m = 0; m < merged_planes_.size(); ++m) {
-      const std::size_t facet = layout_.simplicial + m;
-      std::copy_n(merged_planes_[m].data(), rank_of_points, complex_.planes.data() + facet * rank_of_points);
-      double sum = 0.0;
-      for (std::size_t i = layout_.merged_begin[m]; i < layout_.merged_begin[m + 1]; ++i)
-        sum += determinants_[i];
-      determinants_[facet] = sum;
-    }
-    return std::move(layout_);
-  }
-
-  SimplicialComplex& complex_;
+  const SimplicialComplex& complex_;
   const double* points_;
-  std::span<double> determinants_;
+  std::span<const double> determinants_;
   double tolerance_;
   std::vector<std::uint8_t> has_flat_ridge_;
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
-  std::vector<Vector> merged_planes_;
   std::vector<std::uint32_t> stamp_of_point_;
   std::uint32_t stamp_ = 0;
-  FacetLayout layout_;
 };
 
 }  // namespace
 
-FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,
-                           double tolerance) {
+FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
+                             std::span<const double> determinants, double tolerance) {
   return Merger(complex, points, determinants, tolerance).run();
-}
-
-FacetLayout simplicial_layout(const SimplicialComplex& complex) {
-  FacetLayout layout;
-  layout.regular = layout.simplicial = layout.facets = complex.row_count;
-  layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
-  return layout;
 }
 
 }  // namespace ndhull

@@ -22,19 +22,13 @@ namespace ndhull {
 ///           seed's plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices
 ///           (least squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
-/// Changes   the rows of the complex are put into the order of FacetLayout; row f of complex.planes becomes
-/// the
-///           plane of facet f, determinants[f] the sum over its simplices.
 /// Cost      O(s rank^2) for s simplices, plus the fits.
-FacetLayout merge_coplanar(SimplicialComplex& complex, const double* points, std::span<double> determinants,
-                           double tolerance);
-
-/// The layout without merging.
-FacetLayout simplicial_layout(const SimplicialComplex& complex);
+FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
+                             std::span<const double> determinants, double tolerance);
 
 /// The points that are vertices of the merged hull: those whose facets' normals span all dimensions. Points
 /// in the middle of a facet, ridge or edge are in the complex but are no vertices. `complex` is as
-/// merge_coplanar left it. Returns one flag a point.
+/// lay_out left it. Returns one flag a point.
 std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count);
 

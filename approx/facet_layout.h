@@ -3,11 +3,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/ids.h"
+#include "core/simplicial_complex.h"
 
 namespace ndhull {
+
+/// Facets of more than one simplex, as merging finds them.
+struct FacetClusters {
+  std::vector<std::uint32_t> cluster_of;  ///< per row of the complex; FacetId::kNone: a facet of its own
+  std::vector<double> planes;             ///< count x rank, dual planes in the frame
+  std::uint32_t count = 0;
+};
 
 /// How the rows of a complex group into facets. The rows are ordered so that what is simple needs no table:
 ///   [0, regular)            facet f is simplex f, and so are its neighbours
@@ -20,10 +29,28 @@ struct FacetLayout {
   std::size_t facets = 0;
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
   std::vector<FacetId> facet_of_merged;     ///< of simplex simplicial + i
+  /// Merged facets x rank: the sum of determinant times plane over the simplices; as a covector of the frame
+  /// it points along the facet's mean normal, and its product with a direction is a projected area.
+  std::vector<double> area_vectors;
+  /// The sum of determinant times |gradient of the plane|, in input units, over all merged simplices.
+  double merged_surface = 0.0;
 
   FacetId facet_of(SimplexId simplex) const {
     return simplex.value < simplicial ? FacetId{simplex.value} : facet_of_merged[simplex.value - simplicial];
   }
 };
+
+/// The layout without merging.
+FacetLayout simplicial_layout(const SimplicialComplex& complex);
+
+/// Puts the rows of a compacted complex, and the determinants with them, into the order of FacetLayout. Then
+/// row f of complex.planes becomes the plane of facet f, determinants[f] the sum over its simplices.
+///
+/// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
+///         above plane a in input units.
+/// Order   merged facets stand in the order of their first simplex; rows that can stay do.
+/// Cost    O(rows rank).
+FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
+                    std::span<const double> gradient_factor);
 
 }  // namespace ndhull

@@ -39,6 +39,21 @@ void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, co
   }
 }
 
+/// Areas of the merged facets: of the projection of their simplices onto their plane.
+void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
+                   double area_per_determinant, HugeArray<double>& areas) {
+  const std::size_t dimension = frame.dimension, count = layout.facets - layout.simplicial;
+  std::vector<double> directions(count * dimension), lengths(count);
+  map_normals(frame, layout.area_vectors.data(), count, directions.data(), lengths.data());
+  for (std::size_t m = 0; m < count; ++m) {
+    const double* normal = normals.data() + (layout.simplicial + m) * dimension;
+    double cosine = 0.0;
+    for (std::size_t k = 0; k < dimension; ++k) cosine += directions[m * dimension + k] * normal[k];
+    // A facet of simplices without volume has no direction either.
+    areas[layout.simplicial + m] = std::isfinite(cosine) ? lengths[m] * cosine * area_per_determinant : 0.0;
+  }
+}
+
 }  // namespace
 
 CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
@@ -138,10 +153,14 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
     table.roundoff = std::max(table.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
 
     const double cone = determinants[facet] * volume_per_determinant;
-    table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
     table.volume += cone;
+    if (facet >= layout.simplicial) continue;
+    table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
     table.area += table.areas[facet];
   }
+  const double area_per_determinant = static_cast<double>(frame.rank) * volume_per_determinant;
+  project_areas(layout, frame, normals, area_per_determinant, table.areas);
+  table.area += layout.merged_surface * area_per_determinant;
   return table;
 }
 

@@ -44,7 +44,33 @@ struct Progress {
   std::uint64_t memory_bytes = 0;
 };
 
+/// A length in the length unit, or in percent of the largest extent of the input in it.
+struct Length {
+  double value = 0.0;  ///< 0: not asked for
+  bool is_percent = false;
+  bool is_set() const { return value > 0.0; }
+};
+
+/// Which facets may be traded for which error. Nothing set: the exact hull.
+struct Accuracy {
+  Length width;              ///< target: no facet is wider than this (certified); as few facets as possible
+  std::uint64_t facets = 0;  ///< target: at most this many facets, as narrow as possible; 0: no target
+  Length outside_width;      ///< growth leaves out points that are less than this outside (W)
+  Length centrum_radius;     ///< merge while a centrum is less than this below its neighbour's plane (C)
+  double max_cosine = 2.0;   ///< merge while normals of neighbours agree more than this (A); above 1: off
+  Length width_cap;          ///< merging makes no facet wider than this; not set: see default_width_cap
+  bool is_exact() const {
+    return !width.is_set() && facets == 0 && !outside_width.is_set() && !merges_neighbours();
+  }
+  bool merges_neighbours() const { return centrum_radius.is_set() || max_cosine <= 1.0; }
+};
+
+/// The cap on the width of merged facets when none is given, lengths resolved: the larger of W + 0.9 C
+/// and 6.5 C; with max_cosine alone W + a tenth of the largest extent.
+double default_width_cap(double outside_width, double centrum_radius, double largest_extent);
+
 struct HullOptions {
+  Accuracy accuracy = {};
   bool triangulate = false;  ///< facets stay simplices: no coplanar merging
   bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
@@ -56,6 +82,15 @@ struct HullOptions {
 
 enum class HullStatus { kComplete, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
 std::string_view to_string(HullStatus status);
+
+/// What an approximate hull was made with; lengths resolved, in the length unit.
+struct AccuracyChosen {
+  double outside_width = 0.0;  ///< growth left out what was less outside; 0: nothing
+  double slab_width = 0.0;     ///< facets were sought within slabs of this width; 0: not by slabs
+  double width_cap = 0.0;      ///< 0: none was needed
+  double width_asked = 0.0;    ///< the target width, else W; 0: neither was asked for
+  std::uint64_t merges = 0, refused_merges = 0;
+};
 
 /// Numbers about the run.
 struct HullStatistics {
@@ -84,6 +119,9 @@ class Hull {
   std::size_t rank = 0;       ///< affine dimension of the input
   std::size_t point_count = 0;
   HullStatus status = HullStatus::kComplete;
+  /// Facets were merged for a width. Then a facet may have fewer neighbours than rank, and a vertex, which is
+  /// one of the inner hull, fewer facets.
+  bool is_approximate = false;
 
   std::vector<double> interior_point;      ///< dimension numbers, input units, strictly inside the hull
   std::vector<double> reference;           ///< dimension numbers: origin of the certified planes
@@ -101,6 +139,7 @@ class Hull {
   double max_outside_gauge = 0.0;  ///< [ratio]
   std::uint64_t points_outside = 0;
   HullStatistics statistics;
+  AccuracyChosen chosen;
 
   /// With unit_cube: the extent of each column; otherwise empty.
   const std::vector<double>& unit_cube_extents() const { return length_unit_.extents(); }

@@ -14,6 +14,7 @@ struct HullNumbers {
   std::size_t dimension = 0;
   std::size_t rank = 0;
   std::size_t point_count = 0;
+  bool is_approximate = false;    ///< facets are clusters of simplices within a width, not flats
   double area = 0.0;              ///< input units
   double volume = 0.0;            ///< input units
   double roundoff = 0.0;          ///< [distance] length unit

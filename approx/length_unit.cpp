@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "approx/frame_planes.h"
+
 namespace ndhull {
 namespace {
 
@@ -30,13 +32,40 @@ LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
   directions_.assign(thin.data(), thin.data() + thin.size());
 }
 
+std::vector<double> LengthUnit::gradient(std::span<const double> normal) const {
+  std::vector<double> scaled(normal.begin(), normal.end());
+  if (extents_.empty()) return scaled;
+  for (std::size_t k = 0; k < normal.size(); ++k) scaled[k] *= extents_[k];
+  if (directions_.empty()) return scaled;
+  const Eigen::VectorXd inside =
+      rows_of(directions_, normal.size()) *
+      Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size()));
+  return {inside.data(), inside.data() + inside.size()};
+}
+
 double LengthUnit::input_per_unit(std::span<const double> normal) const {
   if (extents_.empty()) return 1.0;
-  Eigen::VectorXd scaled(static_cast<Eigen::Index>(normal.size()));
-  for (std::size_t k = 0; k < normal.size(); ++k)
-    scaled[static_cast<Eigen::Index>(k)] = normal[k] * extents_[k];
-  if (directions_.empty()) return scaled.norm();
-  return (rows_of(directions_, normal.size()) * scaled).norm();
+  const std::vector<double> scaled = gradient(normal);
+  return Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size())).norm();
+}
+
+std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit) {
+  const std::size_t rank = frame.rank;
+  std::vector<double> axes(rank * rank, 0.0), normals(rank * frame.dimension), lengths(rank);
+  for (std::size_t i = 0; i < rank; ++i) axes[i * rank + i] = 1.0;
+  map_normals(frame, axes.data(), rank, normals.data(), lengths.data());
+  Eigen::MatrixXd gradients;
+  for (std::size_t i = 0; i < rank; ++i) {
+    const std::vector<double> column = unit.gradient({normals.data() + i * frame.dimension, frame.dimension});
+    gradients.conservativeResize(static_cast<Eigen::Index>(column.size()), static_cast<Eigen::Index>(rank));
+    gradients.col(static_cast<Eigen::Index>(i)) =
+        lengths[i] *
+        Eigen::Map<const Eigen::VectorXd>(column.data(), static_cast<Eigen::Index>(column.size()));
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(gradients);
+  const RowMatrix upper =
+      factors.matrixQR().topRows(static_cast<Eigen::Index>(rank)).triangularView<Eigen::Upper>();
+  return {upper.data(), upper.data() + upper.size()};
 }
 
 }  // namespace ndhull

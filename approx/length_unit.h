@@ -17,6 +17,9 @@ class LengthUnit {
 
   /// Input units for one length unit along `normal` (dimension numbers).
   double input_per_unit(std::span<const double> normal) const;
+  /// The direction and size that a gradient in input units has in length units: input_per_unit is its length.
+  /// Linear.
+  std::vector<double> gradient(std::span<const double> normal) const;
   const std::vector<double>& extents() const { return extents_; }
 
  private:
@@ -24,5 +27,9 @@ class LengthUnit {
   std::vector<double>
       directions_;  // flat input: orthonormal directions of the subspace in the cube, rank rows
 };
+
+/// R, rank x rank, row-major upper triangular, such that |R a| is the length of the gradient of the gauge
+/// above the dual plane a, per length unit: a distance is a gauge / |R a|.
+std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit);
 
 }  // namespace ndhull

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -33,9 +34,40 @@ struct OptionToJson {
   }
 };
 
+Json length(const Length& asked) {
+  if (!asked.is_set()) return nullptr;
+  if (!asked.is_percent) return asked.value;
+  std::array<char, 32> digits{};
+  return std::string(digits.data(),
+                     std::to_chars(digits.data(), digits.data() + digits.size(), asked.value).ptr) +
+         "%";
+}
+
+/// What was chosen for the accuracy asked for; lengths resolved.
+Json chosen_of(const AccuracyChosen& chosen) {
+  return {{"outside_width", chosen.outside_width},
+          {"slab_width", limit(chosen.slab_width)},
+          {"width_cap", limit(chosen.width_cap)},
+          {"merges", chosen.merges},
+          {"refused_merges", chosen.refused_merges}};
+}
+
+/// The largest width over the one that was asked for; when none was, over roundoff.
+Json width_ratio_of(const Hull& hull) {
+  const double asked = hull.chosen.width_asked > 0.0 ? hull.chosen.width_asked : hull.roundoff;
+  return asked > 0.0 ? Json(hull.max_facet_width / asked) : Json(nullptr);
+}
+
 Json options_of(const ReportContext& context) {
   const HullOptions& options = context.options;
-  Json json{{"max_facets", limit(options.limits.max_facets)},
+  const Accuracy& accuracy = options.accuracy;
+  Json json{{"width", length(accuracy.width)},
+            {"facets", limit(accuracy.facets)},
+            {"outside_width", length(accuracy.outside_width)},
+            {"centrum_radius", length(accuracy.centrum_radius)},
+            {"max_cosine", accuracy.max_cosine <= 1.0 ? Json(accuracy.max_cosine) : Json(nullptr)},
+            {"width_cap", length(accuracy.width_cap)},
+            {"max_facets", limit(options.limits.max_facets)},
             {"max_seconds", limit(options.limits.max_seconds)},
             {"max_memory", limit(options.limits.max_memory_bytes)},
             {"unit_cube", options.unit_cube},
@@ -116,6 +148,7 @@ Json head_of(const Hull& hull, const ReportContext& context) {
                    {"rank", hull.rank}};
   json["status"] = to_string(hull.status);
   json["options"] = options_of(context);
+  if (!context.options.accuracy.is_exact()) json["chosen"] = chosen_of(hull.chosen);
   json["length_unit"] = context.options.unit_cube ? "unit-cube" : "input";
   json["vertices"] = hull.vertices.size();
   json["facets"] = hull.facet_count();
@@ -130,7 +163,7 @@ Json head_of(const Hull& hull, const ReportContext& context) {
   json["max_outer_offset"] = hull.max_outer_offset;
   json["min_inner_offset"] = hull.min_inner_offset;
   json["max_facet_width"] = hull.max_facet_width;
-  json["width_ratio"] = hull.roundoff > 0.0 ? Json(hull.max_facet_width / hull.roundoff) : Json(nullptr);
+  json["width_ratio"] = width_ratio_of(hull);
   json["max_outside_gauge"] = hull.max_outside_gauge;
   json["interior_point"] = hull.interior_point;
   json["points_outside"] = hull.points_outside;

@@ -83,10 +83,10 @@ class FacetChecker {
     });
     const bool facets_exist = std::all_of(neighbours.begin(), neighbours.end(),
                                           [&](FacetId g) { return is_facet(g) && g != facet; });
-    record_check(of(Claim::kFacets), facets_exist && neighbours.size() >= numbers_.rank, [&] {
+    const std::size_t least = numbers_.is_approximate ? 1 : numbers_.rank;
+    record_check(of(Claim::kFacets), facets_exist && neighbours.size() >= least, [&] {
       return facet_name(facet) + " has a neighbour that is no other facet, or too few: found " +
-             std::to_string(neighbours.size()) + " neighbours, expected at least " +
-             std::to_string(numbers_.rank);
+             std::to_string(neighbours.size()) + " neighbours, expected at least " + std::to_string(least);
     });
     const bool simplices_exist =
         !simplices.empty() && std::all_of(simplices.begin(), simplices.end(), [&](SimplexId simplex) {
@@ -278,16 +278,16 @@ void verify_counts(const PointView& points, const HullClaims& hull, Verification
   const auto vertices = hull.vertices();
   record_check(record, std::is_sorted(vertices.begin(), vertices.end()),
                [] { return std::string("the vertices of the hull are not in ascending order"); });
+  const std::size_t least_facets = numbers.rank == 1 || numbers.is_approximate ? 1 : numbers.rank;
   std::vector<bool> is_vertex(points.rows, false);
   for (const PointId vertex : vertices) {
     const bool fresh = vertex.value < points.rows && !is_vertex[vertex.value];
-    record_check(record, fresh && facets_of_point[vertex.value] >= (numbers.rank == 1 ? 1 : numbers.rank),
-                 [&] {
-                   const std::uint32_t found = vertex.value < points.rows ? facets_of_point[vertex.value] : 0;
-                   return "point " + std::to_string(vertex.value) +
-                          " is given twice as vertex or is in too few facets: found " +
-                          std::to_string(found) + ", expected at least " + std::to_string(numbers.rank);
-                 });
+    record_check(record, fresh && facets_of_point[vertex.value] >= least_facets, [&] {
+      const std::uint32_t found = vertex.value < points.rows ? facets_of_point[vertex.value] : 0;
+      return "point " + std::to_string(vertex.value) +
+             " is given twice as vertex or is in too few facets: found " + std::to_string(found) +
+             ", expected at least " + std::to_string(least_facets);
+    });
     if (vertex.value < points.rows) is_vertex[vertex.value] = true;
   }
   verify_none_left_out(hull, facets_of_point, is_vertex, record);

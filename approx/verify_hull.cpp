@@ -12,6 +12,7 @@ class ClaimsOfHull : public HullClaims {
     return {.dimension = hull_.dimension,
             .rank = hull_.rank,
             .point_count = hull_.point_count,
+            .is_approximate = hull_.is_approximate,
             .area = hull_.area,
             .volume = hull_.volume,
             .roundoff = hull_.roundoff,

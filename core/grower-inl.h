@@ -288,7 +288,9 @@ GrowthStop Grower<D>::run() {
       work_.pending.pop_back();
       continue;
     }
-    if (work_.options.pause_rows != 0 && live_rows() >= work_.options.pause_rows) {
+    if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;
+    if (work_.options.pause_rows != 0 && live_rows() >= work_.options.pause_rows &&
+        furthest.height <= work_.options.pause_height) {
       work_.options.pause_rows = 0;
       return GrowthStop::kPaused;
     }

@@ -5,6 +5,7 @@
 //         new vertex is where an edge meets the cutting plane). The inward shift is ours: core/DESIGN.md.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,15 +28,19 @@ struct GrowthOptions {
   /// of it. 1e-12 is some 4,000 times the rounding error of one decision and still far below data noise;
   /// core/DESIGN.md has the experiment.
   double shift = 1e-12;
-  /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are.
+  /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are. May be
+  /// raised between calls of `grow`; what was left out before stays out.
   double outside_width = 0.0;
   /// rank x rank, row-major: |R a| is the gradient of the gauge above plane a, per length unit, so that a
   /// distance is a gauge / |R a|. Empty: how far outside a point is goes by its gauge, and no width may be
   /// set.
   std::vector<double> gradient_factor;
   std::uint64_t seed = 1;
-  std::uint64_t pause_rows = 0;  ///< growth returns kPaused once when it has this many simplices; 0: never
-  std::uint64_t max_rows = 0;    ///< 0: no limit on simplices
+  /// Growth returns kPaused once when it has this many simplices and no point is more than pause_height
+  /// above; 0: never.
+  std::uint64_t pause_rows = 0;
+  double pause_height = HUGE_VAL;
+  std::uint64_t max_rows = 0;          ///< 0: no limit on simplices
   std::uint64_t max_memory_bytes = 0;  ///< 0: no limit on the complex's tables
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
   std::function<GrowthStop(std::uint64_t points_left, double furthest)> poll;

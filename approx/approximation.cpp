@@ -1,0 +1,436 @@
+#include "approx/approximation.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "approx/boundedness.h"
+#include "approx/cluster_merge.h"
+#include "approx/merge_rule.h"
+#include "core/plane_kernels.h"
+
+namespace ndhull {
+namespace {
+
+constexpr std::uint32_t kNone = FacetId::kNone;
+
+/// Growth aims at points this part of the facet width outside: what is left of the width then is free for
+/// merging. On spheres a quarter needs 1.15 times the facets that none would, a half 1.6 times.
+constexpr double kGrowthShare = 0.25;
+/// Once the hull has many simplices, this part will do.
+constexpr double kGrowthShareAtMost = 0.75;
+/// Simplices that are worth growing for an approximate hull. Merging takes about as long as growing them.
+constexpr std::uint64_t kManySimplices = 250'000;
+/// Simplices for each facet of a target number, at first and at most.
+constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
+/// A point that is less than W above the simplex it lies over may be this much more above another one. Taking
+/// those in as well costs 2.3 times the facets on 10^5 sphere points in 8-d with W 0.3.
+constexpr double kOutsideSlack = 1.045;
+/// Rounds of smaller slabs and more growth before the best so far is taken.
+constexpr int kRounds = 24;
+
+}  // namespace
+
+ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit) {
+  ResolvedAccuracy lengths;
+  for (std::size_t k = 0; k < frame.dimension; ++k) {
+    const double extent = frame.column_max[k] - frame.column_min[k];
+    lengths.largest_extent = std::max(lengths.largest_extent, extent);
+  }
+  if (!unit.extents().empty() && lengths.largest_extent > 0.0) lengths.largest_extent = 1.0;
+  const auto length = [&](const Length& asked) {
+    return asked.is_percent ? 0.01 * asked.value * lengths.largest_extent : asked.value;
+  };
+  lengths.width = length(accuracy.width);
+  lengths.outside_width = length(accuracy.outside_width);
+  lengths.centrum_radius = length(accuracy.centrum_radius);
+  lengths.width_cap = length(accuracy.width_cap);
+  if (!accuracy.width_cap.is_set() && accuracy.merges_neighbours()) {
+    lengths.width_cap =
+        default_width_cap(lengths.outside_width, lengths.centrum_radius, lengths.largest_extent);
+  }
+  return lengths;
+}
+
+double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
+  if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
+  return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);
+}
+
+Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
+                             std::vector<double> factor, CertifiedGrowth& growth, Hull& hull)
+    : frame_(frame),
+      accuracy_(accuracy),
+      lengths_(lengths),
+      factor_(std::move(factor)),
+      growth_(growth),
+      hull_(hull) {}
+
+FacetClusters Approximation::run() {
+  hull_.chosen.width_asked = lengths_.width > 0.0 ? lengths_.width : lengths_.outside_width;
+  if (accuracy_.facets > 0) return run_count();
+  if (lengths_.width > 0.0) return run_width();
+  grow_outside_width();
+  return accuracy_.merges_neighbours() ? run_merging() : FacetClusters{};
+}
+
+// Points above one simplex by less than W can be above another, further from the centre, by more.
+void Approximation::grow_outside_width() {
+  for (int round = 0; round < kRounds; ++round) {
+    const bool finished = growth_.grow_to(lengths_.outside_width, 0, 0.0);
+    growth_.locate_left_out();
+    if (!finished) break;
+    const std::uint64_t before = hull_.statistics.repair_rounds;
+    put_back_above(lengths_.outside_width);
+    if (hull_.statistics.repair_rounds == before) break;
+  }
+  hull_.chosen.outside_width = lengths_.outside_width;
+}
+
+// Many simplices are gathered into slabs first, each well inside what the rule and the cap allow: merging
+// them pair by pair would take longer than growing them did.
+FacetClusters Approximation::run_merging() {
+  constexpr double kShareOfSlabs = 0.8;  // of the cap
+  const double cap = lengths_.width_cap * (1.0 - 1e-9);
+  MergeRule rule{.centrum_radius = lengths_.centrum_radius,
+                 .max_cosine = accuracy_.max_cosine,
+                 .width_cap = cap,
+                 .least_facets = growth_.work().rank + 1};
+  Covering covering;
+  MergeCounts counts;
+  for (int round = 0; round < kRounds; ++round) {
+    make_space(true);
+    const SimplexRule simplex_rule(growth_.work().complex, *space_, rule);
+    SlabCover cover(growth_.work().complex, *space_, &simplex_rule);
+    covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{});
+    counts = merge_clusters(growth_.work().complex, *space_, rule, covering);
+    if (!keeps_hull(covering)) {
+      rule.width_cap *= 0.75;  // what was merged bounds no region any more
+      continue;
+    }
+    const std::vector<double> widths = true_widths(covering);
+    const std::size_t known = extra_.size();
+    add_offenders(covering, widths, cap);
+    if (extra_.size() == known) break;
+  }
+  hull_.chosen.width_cap = cap;
+  hull_.chosen.merges = counts.merges;
+  hull_.chosen.refused_merges = counts.refused;
+  return clusters_of(covering);
+}
+
+/// Puts points back that are more than `width` above any simplex.
+void Approximation::put_back_above(double width) {
+  const SimplicialComplex& complex = growth_.work().complex;
+  const std::size_t rank = complex.rank;
+  struct Height {  // of a simplex's plane above the centre: a gauge times this is a distance
+    double height;
+    std::uint32_t row;
+  };
+  std::vector<Height> heights;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] == SimplexState::kLive)
+      heights.push_back({height_above(growth_.work(), row, 1.0), row});
+  }
+  std::sort(heights.begin(), heights.end(), [](const Height& a, const Height& b) {
+    return a.height != b.height ? a.height > b.height : a.row < b.row;
+  });
+  std::vector<double> planes(heights.size() * rank);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    std::copy_n(complex.plane(SimplexId{heights[i].row}).data(), rank, planes.data() + i * rank);
+  std::vector<LocatedPoint> above(growth_.left_out().size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, above.size(), 256), [&](const auto& range) {
+    for (std::size_t p = range.begin(); p != range.end(); ++p) {
+      const LocatedPoint& point = growth_.left_out()[p];
+      const double* y = growth_.coordinates() + std::size_t{point.point.value} * rank;
+      double best = width;
+      // No plane sees the point at a larger gauge than the one it was located over.
+      for (std::size_t i = 0; i < heights.size() && heights[i].height * point.gauge > best; ++i) {
+        double gauge = -1.0;
+        for (std::size_t k = 0; k < rank; ++k) gauge += planes[i * rank + k] * y[k];
+        if (gauge * heights[i].height <= best) continue;
+        best = gauge * heights[i].height;
+        above[p] = {point.point, SimplexId{heights[i].row}, gauge};
+      }
+    }
+  });
+  std::erase_if(above, [](const LocatedPoint& point) { return !point.point.valid(); });
+  if (above.empty()) return;
+  // The furthest alone: the simplices that they bring may well be all that the others need.
+  double worst = 0.0;
+  const auto height = [&](const LocatedPoint& point) {
+    return height_above(growth_.work(), point.simplex.value, point.gauge);
+  };
+  for (const LocatedPoint& point : above) worst = std::max(worst, height(point));
+  if (worst <= kOutsideSlack * width) return;
+  std::erase_if(above, [&](const LocatedPoint& point) { return height(point) < 0.5 * (width + worst); });
+  growth_.put_back(above);
+}
+
+/// The space of fits: vertices; points outside that reach furthest, one a simplex at most; those met before.
+void Approximation::make_space(bool with_left_out) {
+  const GrowthWork& work = growth_.work();
+  const SimplicialComplex& complex = work.complex;
+  std::vector<std::uint8_t> is_taken(work.point_count, 0);
+  std::vector<PointId> vertices, others;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    for (const PointId id : complex.vertices(SimplexId{row})) {
+      if (is_taken[id.value]) continue;
+      is_taken[id.value] = 1;
+      vertices.push_back(id);
+    }
+  }
+  struct Reach {
+    double height;
+    PointId point;
+    bool operator<(const Reach& other) const {
+      return height != other.height ? height > other.height : point < other.point;
+    }
+  };
+  std::vector<Reach> furthest;
+  if (with_left_out) {
+    std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
+    for (const LocatedPoint& point : growth_.left_out()) {
+      const double height = height_above(work, point.simplex.value, point.gauge);
+      const Reach reach{std::isfinite(height) ? height : HUGE_VAL, point.point};
+      if (reach < of_row[point.simplex.value]) of_row[point.simplex.value] = reach;
+    }
+    for (const Reach& reach : of_row)
+      if (reach.point.valid()) furthest.push_back(reach);
+  } else {
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
+      const std::uint32_t id = complex.outside_head[row] - 1;
+      furthest.push_back({work.height[id], PointId{id}});
+    }
+  }
+  std::sort(furthest.begin(), furthest.end());
+  const std::size_t most = 2 * vertices.size() + 1024;
+  if (furthest.size() > most) furthest.resize(most);
+  for (const PointId id : extra_) {
+    if (is_taken[id.value]) continue;
+    is_taken[id.value] = 1;
+    others.push_back(id);
+  }
+  for (const Reach& reach : furthest) {
+    if (is_taken[reach.point.value]) continue;
+    is_taken[reach.point.value] = 1;
+    others.push_back(reach.point);
+  }
+  space_.emplace(work.rank, factor_, growth_.coordinates(), work.point_count, vertices, others);
+  left_out_rows_.clear();
+  if (!with_left_out || growth_.left_out().empty()) return;
+  std::vector<PointId> left_out;
+  for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
+  const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out);
+  left_out_rows_.assign(all.row(0), all.row(0) + left_out.size() * work.rank);
+}
+
+/// The widths over all points, not only those of the space.
+std::vector<double> Approximation::true_widths(const Covering& covering) {
+  const std::size_t rank = space_->rank(), count = covering.planes.size();
+  std::vector<double> normals(count * rank), reach(count, -HUGE_VAL), widths(count);
+  for (std::size_t facet = 0; facet < count; ++facet)
+    std::copy_n(covering.planes[facet].normal.data(), rank, normals.data() + facet * rank);
+  if (!left_out_rows_.empty()) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const auto& range) {
+      max_dots(rank, std::span<const double>(normals).subspan(range.begin() * rank, range.size() * rank),
+               left_out_rows_, std::span<double>(reach).subspan(range.begin(), range.size()));
+    });
+  }
+  std::vector<std::uint32_t> row_of_alone(count, kNone);
+  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) row_of_alone[covering.facet_of[row]] = row;
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    double height = covering.planes[facet].height, low = covering.planes[facet].low;
+    if (height == 0.0) {  // a simplex with its own plane
+      const PointId vertex = growth_.work().complex.vertices(SimplexId{row_of_alone[facet]})[0];
+      const double* z = space_->row(space_->row_of(vertex));
+      for (std::size_t k = 0; k < rank; ++k) height += normals[facet * rank + k] * z[k];
+      low = height;
+    }
+    widths[facet] = std::max(height, reach[facet]) - low;
+  }
+  return widths;
+}
+
+/// Remembers, for each facet that is wider than `width`, the point that makes it so.
+void Approximation::add_offenders(const Covering& covering, const std::vector<double>& widths, double width) {
+  const std::size_t rank = space_->rank();
+  for (std::size_t facet = 0; facet < widths.size(); ++facet) {
+    if (widths[facet] <= width) continue;
+    double furthest = -HUGE_VAL;
+    PointId point;
+    for (std::size_t i = 0; i < growth_.left_out().size(); ++i) {
+      double dot = 0.0;
+      for (std::size_t k = 0; k < rank; ++k)
+        dot += covering.planes[facet].normal[k] * left_out_rows_[i * rank + k];
+      if (dot <= furthest) continue;
+      furthest = dot;
+      point = growth_.left_out()[i].point;
+    }
+    if (point.valid()) extra_.push_back(point);
+  }
+  std::sort(extra_.begin(), extra_.end());
+  extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
+}
+
+bool Approximation::is_bounded(const Covering& covering) const {
+  std::vector<double> normals;
+  for (const FittedPlane& plane : covering.planes)
+    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
+  return find_open_direction(normals, space_->rank()).bounded;
+}
+
+/// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
+/// the hull is high everywhere, that is certain.
+bool Approximation::keeps_hull(const Covering& covering) const {
+  if (covering.planes.size() <= space_->rank()) return false;
+  return covering.planes.size() > 1000 || is_bounded(covering);
+}
+
+Covering Approximation::cover_width(double width, const CoverEffort& effort) {
+  SlabCover cover(growth_.work().complex, *space_);
+  Covering covering = cover.cover(width, effort);
+  while (!keeps_hull(covering)) {
+    width *= 0.75;
+    ++hull_.chosen.refused_merges;
+    covering = cover.cover(width, effort);
+    if (covering.planes.size() == cover.live_count()) break;
+  }
+  hull_.chosen.slab_width = width;
+  return covering;
+}
+
+FacetClusters Approximation::run_width() {
+  const CoverEffort effort{.final_fit_steps = 0};
+  const double target = lengths_.width * (1.0 - 1e-9);
+  double outside_width =
+      lengths_.outside_width > 0.0 ? lengths_.outside_width : kGrowthShare * lengths_.width;
+  double slab = target;
+  Covering covering;
+  for (int round = 0;; ++round) {
+    const bool is_last = round == kRounds;
+    const std::uint64_t enough = lengths_.outside_width > 0.0 || round > 4 ? 0 : kManySimplices;
+    growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
+    growth_.locate_left_out();
+    make_space(true);
+    covering = cover_width(slab, effort);
+    const std::vector<double> widths = true_widths(covering);
+    const double widest = *std::max_element(widths.begin(), widths.end());
+    if (widest <= target || is_last || growth_.is_limited()) break;
+    add_offenders(covering, widths, target);
+    slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
+    if (round % 2 == 1) {  // more growth: the simplices themselves may be too wide
+      outside_width *= 0.7;
+      put_back_above(outside_width);
+    }
+  }
+  hull_.chosen.outside_width = outside_width;
+  return clusters_of(covering);
+}
+
+/// The least width found that needs at most `count` facets. The number falls like a power of the width, about
+/// the (rank-1)/2-th where the hull is round: each guess uses the two nearest.
+Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width) {
+  SlabCover cover(growth_.work().complex, *space_);
+  const double power = 2.0 / (static_cast<double>(space_->rank()) - 1.0);
+  const double wanted = std::log(static_cast<double>(count));
+  struct Trial {
+    double log_width, log_count;
+  };
+  std::optional<Trial> few, many;  // nearest with at most, with more than the count
+  Covering best;
+  double best_width = 0.0, log_width = std::log(start_width);
+  for (int trial = 0; trial < 16; ++trial) {
+    Covering covering = cover.cover(std::exp(log_width), effort);
+    const bool is_hull = keeps_hull(covering);
+    const double log_count = std::log(static_cast<double>(covering.planes.size()));
+    if (covering.planes.size() <= count) {
+      if (is_hull && (best.planes.empty() || covering.widest < best.widest)) {
+        best = std::move(covering);
+        best_width = std::exp(log_width);
+      }
+      if (!few || log_width < few->log_width) few = Trial{log_width, log_count};
+    } else if (!many || log_width > many->log_width) {
+      many = Trial{log_width, log_count};
+    }
+    if (!best.planes.empty() && few && wanted - few->log_count < 0.025 && is_hull) break;
+    if (few && many) {
+      if (few->log_width - many->log_width < 0.004) break;
+      const double part =
+          (many->log_count - wanted + 0.012) / std::max(1e-9, many->log_count - few->log_count);
+      log_width = many->log_width + std::clamp(part, 0.08, 0.92) * (few->log_width - many->log_width);
+    } else if (few) {
+      log_width = few->log_width - std::max(0.05, 1.2 * power * (wanted - few->log_count));
+    } else {
+      log_width = many->log_width + std::max(0.05, 1.2 * power * (many->log_count - wanted));
+    }
+  }
+  hull_.chosen.slab_width = best_width;
+  return best;
+}
+
+FacetClusters Approximation::run_count() {
+  const std::uint64_t count = accuracy_.facets;
+  const CoverEffort quick{.final_fit_steps = 0};
+  const bool is_given = lengths_.outside_width > 0.0;
+  const std::uint64_t most = std::max(kManySimplices, kSimplicesPerFacet * count);
+  double outside_width = lengths_.outside_width;
+  double width = 0.1 * lengths_.largest_extent;
+  if (!is_given &&
+      !growth_.grow_to(0.0, std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count), HUGE_VAL) &&
+      !growth_.is_limited()) {
+    make_space(false);
+    Covering covering = cover_count(count, quick, width);
+    if (!covering.planes.empty()) width = hull_.chosen.slab_width;
+    outside_width = kGrowthShare * width;
+    if (growth_.furthest_height() > outside_width) growth_.grow_to(outside_width, most, HUGE_VAL);
+  } else if (is_given) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
+  }
+  growth_.locate_left_out();
+  make_space(true);
+  Covering best = cover_count(count, quick, width);
+  double best_width = HUGE_VAL;
+  for (int round = 0; round < 2 && !best.planes.empty(); ++round) {
+    add_offenders(best, true_widths(best), best.widest * (1.0 + 1e-12));
+    make_space(true);
+    // The better search needs fewer facets: a smaller width will do.
+    Covering better =
+        cover_count(count, CoverEffort{.choices = 2, .refits = 2}, 0.97 * hull_.chosen.slab_width);
+    if (better.planes.empty()) break;
+    const std::vector<double> widths = true_widths(better);
+    const double widest = *std::max_element(widths.begin(), widths.end());
+    const bool is_true = widest <= better.widest * 1.002;
+    if (widest >= best_width) break;
+    best_width = widest;
+    best = std::move(better);
+    if (is_true) break;
+  }
+  hull_.chosen.outside_width = outside_width;
+  return clusters_of(best);
+}
+
+FacetClusters Approximation::clusters_of(const Covering& covering) const {
+  FacetClusters clusters;
+  if (covering.planes.empty()) return clusters;
+  const std::size_t rank = space_->rank();
+  clusters.cluster_of.assign(covering.facet_of.size(), kNone);
+  std::vector<std::uint32_t> cluster(covering.planes.size(), kNone);
+  for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
+    const FittedPlane& plane = covering.planes[facet];
+    if (plane.height == 0.0) continue;
+    cluster[facet] = clusters.count++;
+    clusters.planes.resize(clusters.count * rank);
+    space_->plane_of(plane.normal.data(), plane.height, clusters.planes.data() + cluster[facet] * rank);
+  }
+  for (std::size_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) clusters.cluster_of[row] = cluster[covering.facet_of[row]];
+  return clusters;
+}
+
+}  // namespace ndhull

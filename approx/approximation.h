@@ -1,0 +1,63 @@
+// From an accuracy that is asked for to clusters of simplices: how far to grow, which facets to make.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "approx/certified_growth.h"
+#include "approx/facet_layout.h"
+#include "approx/hull.h"
+#include "approx/slab_cover.h"
+#include "approx/width_space.h"
+
+namespace ndhull {
+
+/// Lengths in the length unit; 0 where nothing was asked for.
+struct ResolvedAccuracy {
+  double width = 0.0, outside_width = 0.0, centrum_radius = 0.0, width_cap = 0.0;
+  double largest_extent = 0.0;
+};
+ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
+
+/// One approximate hull on its way.
+class Approximation {
+ public:
+  /// All must outlive this. `factor`: gradient_factor of the frame and the length unit.
+  Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
+                std::vector<double> factor, CertifiedGrowth& growth, Hull& hull);
+
+  /// Grows the hull and says which simplices become which facet. The complex may keep free rows; cluster_of
+  /// has an entry for each row. No clusters: all facets are simplices so far.
+  ///
+  /// Promised  with a target width no facet is wider, unless a limit ended growth: rounds go on, with smaller
+  ///           slabs and more points, until the true widths over all points fit.
+  FacetClusters run();
+
+ private:
+  void make_space(bool with_left_out);
+  Covering cover_width(double width, const CoverEffort& effort);
+  Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width);
+  bool is_bounded(const Covering& covering) const;
+  bool keeps_hull(const Covering& covering) const;
+  std::vector<double> true_widths(const Covering& covering);
+  void add_offenders(const Covering& covering, const std::vector<double>& widths, double width);
+  void put_back_above(double width);
+  FacetClusters clusters_of(const Covering& covering) const;
+  FacetClusters run_width();
+  FacetClusters run_count();
+  FacetClusters run_merging();
+  void grow_outside_width();
+
+  const Frame& frame_;
+  const Accuracy& accuracy_;
+  ResolvedAccuracy lengths_;
+  std::vector<double> factor_;
+  CertifiedGrowth& growth_;
+  Hull& hull_;
+  std::vector<PointId> extra_;  // points that reached further than the space knew
+  std::optional<WidthSpace> space_;
+  std::vector<double> left_out_rows_;  // of the space's kind, left_out() x rank
+};
+
+}  // namespace ndhull

@@ -1,0 +1,254 @@
+#include "approx/certified_growth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ndhull {
+namespace {
+
+/// Repair rounds after which the rest is reported, not chased. One or two are what degenerate inputs need.
+constexpr std::uint64_t kRepairRounds = 8;
+/// Points further inside than this need no look at their distance from each plane. [ratio]
+constexpr double kWellInside = 1e-9;
+/// Points from which on an early proof pays.
+constexpr std::size_t kManyPoints = 4096;
+/// Plane-times-point products that are worth certifying points near the hull one by one.
+constexpr double kAffordableProducts = 4e11;
+
+double seconds_since(CertifiedGrowth::Clock::time_point start) {
+  return std::chrono::duration<double>(CertifiedGrowth::Clock::now() - start).count();
+}
+
+HullStatus status_of(GrowthStop stop) {
+  switch (stop) {
+    case GrowthStop::kNoOutsidePoints:
+    case GrowthStop::kPaused: return HullStatus::kComplete;
+    case GrowthStop::kFacetLimit: return HullStatus::kFacetLimit;
+    case GrowthStop::kTimeLimit: return HullStatus::kTimeLimit;
+    case GrowthStop::kMemoryLimit: return HullStatus::kMemoryLimit;
+    case GrowthStop::kInterrupted: return HullStatus::kInterrupted;
+  }
+  return HullStatus::kComplete;
+}
+
+}  // namespace
+
+CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
+                                 std::vector<double> gradient_factor, const HullOptions& options,
+                                 Clock::time_point start, Hull& hull)
+    : points_(points), frame_(frame), options_(options), start_(start), hull_(hull) {
+  coordinates_.resize(points_.rows * frame_.rank + 8);
+  map_points(points_, frame_, coordinates_.data());
+  work_.options.gradient_factor = std::move(gradient_factor);
+  detail("frame", start_);
+}
+
+void CertifiedGrowth::detail(std::string_view name, Clock::time_point since) {
+  hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
+}
+
+void CertifiedGrowth::make_segment() {
+  std::uint32_t low = 0, high = 0;
+  for (std::uint32_t id = 0; id < points_.rows; ++id) {
+    if (coordinates_[id] < coordinates_[low]) low = id;
+    if (coordinates_[id] > coordinates_[high]) high = id;
+  }
+  work_.complex = SimplicialComplex(1, 2);
+  work_.complex.row_count = 2;
+  const std::uint32_t ends[2] = {low, high};
+  for (std::uint32_t row = 0; row < 2; ++row) {
+    work_.complex.topology[2 * row] = ends[row];
+    work_.complex.topology[2 * row + 1] = 1 - row;
+    work_.complex.planes[row] = 1.0 / coordinates_[ends[row]];
+    work_.complex.state[row] = SimplexState::kLive;
+  }
+  certificate_wanted_.assign(points_.rows, true);
+}
+
+GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
+  const std::uint64_t rows = work_.complex.row_count - work_.free_count;
+  const std::uint64_t bytes =
+      work_.complex.row_count * (16 * frame_.rank + 5) + coordinates_.size() * 8 + points_.rows * 12;
+  if (options_.progress) {
+    options_.progress({Phase::kGrowth, points_left, rows, furthest, seconds_since(start_), bytes});
+  }
+  if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
+  const Limits& limits = options_.limits;
+  if (limits.max_seconds > 0.0 && seconds_since(start_) > limits.max_seconds) return GrowthStop::kTimeLimit;
+  // The facet table takes about as much again for each simplex as is kept of the planes.
+  const std::uint64_t at_end = bytes + rows * (8 * frame_.dimension + 40);
+  if (limits.max_memory_bytes > 0 && at_end > limits.max_memory_bytes) return GrowthStop::kMemoryLimit;
+  return GrowthStop::kNoOutsidePoints;
+}
+
+void CertifiedGrowth::start() {
+  has_started_ = true;
+  work_.rank = frame_.rank;
+  work_.point_count = points_.rows;
+  work_.points = coordinates_.data();
+  work_.measure_phases = true;
+  work_.options.seed = options_.seed;
+  work_.options.max_rows = options_.limits.max_facets;
+  work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
+  const Clock::time_point begin = Clock::now();
+  start_growth(work_, frame_.simplex);
+  detail("first partition", begin);
+  ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
+  if (points_.rows > kManyPoints) prove_early();
+}
+
+void CertifiedGrowth::grow_exactly() {
+  std::uint64_t searched_all = 0;
+  start();
+  for (std::uint64_t round = 0;; ++round) {
+    Clock::time_point phase_start = Clock::now();
+    const GrowthStop stop = grow(work_);
+    hull_.status = status_of(stop);
+    seconds(Phase::kGrowth) += seconds_since(phase_start);
+    phase_start = Clock::now();
+    const std::vector<LocatedPoint> located =
+        prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all);
+    const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && repair(located);
+    if (!repaired) choose_certificate_points(located);
+    seconds(Phase::kCertify) += seconds_since(phase_start);
+    if (!repaired) break;
+    ++hull_.statistics.repair_rounds;
+  }
+  report_counters();
+}
+
+bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, double enough_height) {
+  work_.options.outside_width = outside_width;
+  if (!has_started_) start();
+  const Clock::time_point begin = Clock::now();
+  work_.options.pause_rows = enough_rows;
+  work_.options.pause_height = enough_height;
+  const GrowthStop stop = grow(work_);
+  work_.options.pause_rows = 0;
+  work_.options.pause_height = HUGE_VAL;
+  hull_.status = status_of(stop);
+  seconds(Phase::kGrowth) += seconds_since(begin);
+  return stop == GrowthStop::kNoOutsidePoints;
+}
+
+void CertifiedGrowth::locate_left_out() {
+  const Clock::time_point begin = Clock::now();
+  std::uint64_t searched_all = 0;
+  choose_certificate_points(
+      prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all));
+  seconds(Phase::kCertify) += seconds_since(begin);
+  report_counters();
+}
+
+void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
+  for (const LocatedPoint& point : points) {
+    push_outside(work_, point.point.value, point.simplex.value,
+                 height_above(work_, point.simplex.value, point.gauge));
+  }
+  ++hull_.statistics.repair_rounds;
+}
+
+double CertifiedGrowth::furthest_height() const {
+  double furthest = 0.0;
+  const SimplicialComplex& complex = work_.complex;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
+    furthest = std::max(furthest, work_.height[complex.outside_head[row] - 1]);
+  }
+  return furthest;
+}
+
+void CertifiedGrowth::report_counters() {
+  const GrowthCounters& counters = work_.counters;
+  HullStatistics& statistics = hull_.statistics;
+  statistics.created_simplices = counters.created;
+  statistics.insertions = counters.insertions;
+  statistics.shifted_points = counters.shifted;
+  statistics.rejected_insertions = counters.rejected;
+  const std::pair<std::string_view, double> details[] = {{"visible set", counters.seconds_visible},
+                                                         {"cone", counters.seconds_cone},
+                                                         {"matching", counters.seconds_match},
+                                                         {"partition", counters.seconds_partition},
+                                                         {"points inside", seconds(Phase::kCertify)}};
+  for (const auto& [name, value] : details) {
+    const auto same = std::find_if(statistics.detail_seconds.begin(), statistics.detail_seconds.end(),
+                                   [&](const auto& entry) { return entry.first == name; });
+    if (same == statistics.detail_seconds.end()) {
+      statistics.detail_seconds.emplace_back(name, value);
+    } else {
+      same->second = value;
+    }
+  }
+}
+
+/// Most of many points are well inside a small hull already. What is proven inside a part of the hull is
+/// inside the whole, and the part's simplices are few and in cache.
+void CertifiedGrowth::prove_early() {
+  Clock::time_point begin = Clock::now();
+  work_.options.pause_rows = 128 * frame_.rank;
+  const GrowthStop stop = grow(work_);
+  work_.options.pause_rows = 0;
+  seconds(Phase::kGrowth) += seconds_since(begin);
+  if (stop != GrowthStop::kPaused) return;  // finished, or ended by a limit: the final proof comes next
+  begin = Clock::now();
+  const std::vector<PointId> candidates = points_off_the_complex();
+  proven_.assign(points_.rows, false);
+  for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball_, candidates)) {
+    if (point.gauge < -kWellInside) proven_[point.point.value] = true;
+  }
+  seconds(Phase::kCertify) += seconds_since(begin);
+}
+
+/// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
+std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
+  certificate_wanted_.assign(points_.rows, false);
+  for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) {
+    if (work_.complex.state[row] != SimplexState::kLive) continue;
+    for (const PointId id : work_.complex.vertices(SimplexId{row})) certificate_wanted_[id.value] = true;
+  }
+  std::vector<PointId> rest;
+  for (std::uint32_t id = 0; id < points_.rows; ++id) {
+    if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});
+  }
+  return rest;
+}
+
+/// Points more than four shifts outside go back; true when there were any.
+bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
+  bool any = false;
+  for (const LocatedPoint& point : located) {
+    if (point.gauge <= 4.0 * work_.options.shift) continue;
+    double gauge = -1.0;
+    const auto plane = work_.complex.plane(point.simplex);
+    for (std::size_t k = 0; k < frame_.rank; ++k)
+      gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
+    if (gauge <= 2.0 * work_.options.shift) continue;
+    push_outside(work_, point.point.value, point.simplex.value,
+                 height_above(work_, point.simplex.value, gauge));
+    any = true;
+  }
+  return any;
+}
+
+/// Vertices, and points so near the hull (or outside, after a limit) that only their distances will do.
+/// When that would cost too much the points outside are covered by their gauge.
+void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>& located) {
+  double largest_gauge = 0.0;
+  left_out_.clear();
+  for (const LocatedPoint& point : located) {
+    largest_gauge = std::max(largest_gauge, point.gauge);
+    if (point.gauge > -kWellInside) left_out_.push_back(point);
+  }
+  hull_.max_outside_gauge = largest_gauge;
+  const double live = static_cast<double>(work_.complex.row_count - work_.free_count);
+  const double products = live * static_cast<double>(left_out_.size() * frame_.dimension);
+  covered_gauge_ = 0.0;
+  if (products > kAffordableProducts && std::isfinite(largest_gauge)) {
+    // Rounding of the frame's coordinates is far below this.
+    covered_gauge_ = largest_gauge + 1e-14;
+    return;
+  }
+  for (const LocatedPoint& point : left_out_) certificate_wanted_[point.point.value] = true;
+}
+
+}  // namespace ndhull

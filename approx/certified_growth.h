@@ -1,0 +1,85 @@
+// Growth with a proof for every point: steps 2 and 3 of the driver.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "approx/hull.h"
+#include "core/frame.h"
+#include "core/growth.h"
+#include "core/membership.h"
+#include "core/points.h"
+
+namespace ndhull {
+
+/// One hull while it grows.
+///
+/// Use      grow_exactly(); or grow_to(...) as often as wanted, then locate_left_out().
+/// Numbers  status, counts and seconds go into the Hull that is given.
+class CertifiedGrowth {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// gradient_factor: as GrowthOptions; empty for the exact hull. `hull` must outlive this.
+  CertifiedGrowth(const PointView& points, const Frame& frame, std::vector<double> gradient_factor,
+                  const HullOptions& options, Clock::time_point start, Hull& hull);
+
+  /// Until no point is outside: every one is proven inside, or goes back and growth goes on, at most a few
+  /// rounds.
+  void grow_exactly();
+
+  /// Until no point is more than `outside_width` above the simplex it lies over, or there are `enough_rows`
+  /// simplices (0: no end there) and no point is more than `enough_height` above, or a limit is hit.
+  /// Returns true in the first case.
+  bool grow_to(double outside_width, std::uint64_t enough_rows, double enough_height);
+
+  /// Proves for all points that are no vertices where they are; what is not well inside becomes left_out().
+  void locate_left_out();
+  /// Puts these points, which are above these simplices, back into outside sets.
+  void put_back(std::span<const LocatedPoint> points);
+
+  GrowthWork& work() { return work_; }
+  const double* coordinates() const { return coordinates_.data(); }
+  bool is_limited() const { return hull_.status != HullStatus::kComplete; }
+  /// Height of the furthest point that is still in an outside set; 0 without one.
+  double furthest_height() const;
+  /// Points that are no vertices and not well inside, each with the simplex it is above.
+  const std::vector<LocatedPoint>& left_out() const { return left_out_; }
+  /// One flag a point: vertex of a simplex, or left out.
+  std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
+  /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
+  double covered_gauge() const { return covered_gauge_; }
+  void release_coordinates() { coordinates_ = std::vector<double>(); }
+  /// A segment: rank 1 has no growth.
+  void make_segment();
+
+ private:
+  void start();
+  void report_counters();
+  GrowthStop poll(std::uint64_t points_left, double furthest);
+  void prove_early();
+  std::vector<PointId> points_off_the_complex();
+  bool repair(const std::vector<LocatedPoint>& located);
+  void choose_certificate_points(const std::vector<LocatedPoint>& located);
+  double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
+  void detail(std::string_view name, Clock::time_point since);
+
+  const PointView& points_;
+  const Frame& frame_;
+  const HullOptions& options_;
+  Clock::time_point start_;
+  Hull& hull_;
+  std::vector<double> coordinates_;  // points x rank, in the frame
+  GrowthWork work_;
+  HullBall ball_;
+  bool has_started_ = false;
+  std::vector<bool> certificate_wanted_;
+  std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
+  std::vector<LocatedPoint> left_out_;
+  double covered_gauge_ = 0.0;
+};
+
+}  // namespace ndhull

@@ -1,0 +1,103 @@
+#include "approx/plane_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ndhull {
+namespace {
+
+double dot(std::size_t rank, const double* a, const double* b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rank; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// Near points from which on only the highest are looked at.
+constexpr std::size_t kManyNear = 256;
+
+/// The points with the largest and, among the facet's vertices, the smallest product.
+struct ExtremePair {
+  std::uint32_t high = 0, low = 0;  // index into work.near; into the facet's vertices
+  double height = 0.0, lowest = 0.0;
+  double width() const { return height - lowest; }
+};
+
+ExtremePair find_near_extremes(PlaneFitWork& work, std::span<const double> normal) {
+  ExtremePair pair;
+  pair.high = work.near_table.find(normal.data(), work.products.data());
+  pair.height = work.products[pair.high];
+  for (std::size_t k = 0; k < normal.size(); ++k) work.next[k] = -normal[k];
+  pair.low = work.facet_table.find(work.next.data(), work.products.data());
+  pair.lowest = -work.products[pair.low];
+  return pair;
+}
+
+void gather(const WidthSpace& space, std::span<const std::uint32_t> from, PlaneFitWork& work,
+            SupportTable& table) {
+  work.rows.resize(from.size() * space.rank());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    std::copy_n(space.row(from[i]), space.rank(), work.rows.data() + i * space.rank());
+  table.assign(space.rank(), work.rows);
+}
+
+}  // namespace
+
+FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
+                          std::span<const std::uint32_t> vertices, PlaneFitWork& work) {
+  work.dots.resize(space.table().padded_count());
+  ++work.evaluations;
+  FittedPlane plane{{normal.begin(), normal.end()}, 0.0, HUGE_VAL};
+  plane.height = work.dots[space.table().find(normal.data(), work.dots.data())];
+  for (const std::uint32_t vertex : vertices) plane.low = std::min(plane.low, work.dots[vertex]);
+  return plane;
+}
+
+FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
+                         std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
+  const std::size_t rank = space.rank();
+  work.near.clear();
+  space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
+  if (work.near.size() > kManyNear) {
+    const auto end = work.near.begin() + static_cast<std::ptrdiff_t>(kManyNear);
+    std::nth_element(work.near.begin(), end, work.near.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return work.dots[a] != work.dots[b] ? work.dots[a] > work.dots[b] : a < b;
+    });
+    work.near.erase(end, work.near.end());
+  }
+  gather(space, work.near, work, work.near_table);
+  gather(space, vertices, work, work.facet_table);
+  work.products.resize(std::max(work.near_table.padded_count(), work.facet_table.padded_count()));
+  work.trial.assign(start.normal.begin(), start.normal.end());
+  work.next.resize(rank);
+  std::vector<double> best_normal = work.trial;
+  ExtremePair pair = find_near_extremes(work, work.trial);
+  double best_width = pair.width();
+  double step = 0.25;  // of the way to width 0, were the width linear
+  for (unsigned i = 0; i < steps; ++i) {
+    double across_sq = 0.0;
+    const double along = pair.width();
+    const double* high = space.row(work.near[pair.high]);
+    const double* low = space.row(vertices[pair.low]);
+    for (std::size_t k = 0; k < rank; ++k) {
+      work.next[k] = high[k] - low[k] - along * work.trial[k];
+      across_sq += work.next[k] * work.next[k];
+    }
+    if (!(across_sq > 0.0) || !(best_width > 0.0)) break;
+    const double length = step * best_width / across_sq;
+    for (std::size_t k = 0; k < rank; ++k) work.next[k] = work.trial[k] - length * work.next[k];
+    const double scale = 1.0 / std::sqrt(dot(rank, work.next.data(), work.next.data()));
+    for (std::size_t k = 0; k < rank; ++k) work.trial[k] = work.next[k] * scale;
+    pair = find_near_extremes(work, work.trial);
+    if (pair.width() < best_width) {
+      best_width = pair.width();
+      best_normal = work.trial;
+    } else {
+      step *= 0.9;
+    }
+  }
+  FittedPlane turned = measure_plane(space, best_normal, vertices, work);
+  if (turned.width() <= start.width()) return turned;
+  return measure_plane(space, start.normal, vertices, work);
+}
+
+}  // namespace ndhull

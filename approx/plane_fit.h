@@ -1,0 +1,49 @@
+// The plane of a facet of several simplices: the direction in which the facet is narrowest.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "approx/width_space.h"
+
+namespace ndhull {
+
+/// A direction with what it says about the points of a WidthSpace.
+struct FittedPlane {
+  std::vector<double> normal;  ///< unit
+  double height = 0.0;         ///< [distance] largest product with any point
+  double low = 0.0;            ///< [distance] smallest product with a vertex of the facet
+  double width() const { return height - low; }
+  double middle() const { return 0.5 * (height + low); }  ///< height of the plane midway
+};
+
+/// Scratch of the fits; one for each thread.
+struct PlaneFitWork {
+  std::vector<double> dots;         ///< of the last measured direction with all points
+  std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first
+  std::vector<double> rows, products, trial, next;
+  SupportTable near_table, facet_table;
+  std::uint64_t evaluations = 0;  ///< products of one direction with all points, ever
+};
+
+/// Height, low and products (work.dots) of `normal` for a facet with these vertices (rows of `space`).
+FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
+                          std::span<const std::uint32_t> vertices, PlaneFitWork& work);
+
+/// Turns `start` towards less width. work.dots must be those of start.
+///
+/// Method    The width of a direction n is max n.x over all points minus min n.v over the facet's vertices, a
+///           convex function; x - v of the extreme pair, without its part along n, is a subgradient. Steps
+///           along it, shorter after each that does not help; the best direction seen is taken. The steps
+///           look only at points within a width below the start's plane, the highest if they are very many;
+///           the end is measured with all, and the start returned if that is no wider. work.dots are those of
+///           what is returned.
+/// Not promised  the least width there is.
+/// Cost      two products of a direction with all points, and `steps` with the near ones.
+/// Source    Shor. Minimization Methods for Non-Differentiable Functions. 1985 (subgradient steps).
+FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
+                         std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work);
+
+}  // namespace ndhull

@@ -1,0 +1,49 @@
+// The coordinates that facets are fitted in: an isometric image of the data in length units, so that a
+// direction's products are distances, also with --unit-cube and for flat data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/support.h"
+
+namespace ndhull {
+
+/// Points that say how wide a facet is: the vertices of the complex and the points that reach out furthest.
+///
+/// Shapes  a point y of the frame has the image z with R^T z = y (R: gradient_factor); the plane a of the
+///         frame has the normal R a, whose length is one over its distance from the frame's centre.
+class WidthSpace {
+ public:
+  /// vertices and others: points without repetition; coordinates: any number of rows x rank, in the frame.
+  WidthSpace(std::size_t rank, std::vector<double> gradient_factor, const double* coordinates,
+             std::size_t point_count, std::span<const PointId> vertices, std::span<const PointId> others);
+
+  std::size_t rank() const { return rank_; }
+  std::size_t vertex_count() const { return vertex_count_; }
+  const SupportTable& table() const { return table_; }
+  const double* row(std::uint32_t row) const { return rows_.data() + std::size_t{row} * rank_; }
+  PointId point_of(std::uint32_t row) const { return point_of_row_[row]; }
+  /// Of a vertex or other point that was given.
+  std::uint32_t row_of(PointId point) const { return row_of_point_[point.value]; }
+
+  /// The unit normal of a plane of the frame.
+  void normal_of(std::span<const double> plane, double* normal) const;
+  /// The plane of the frame with this unit normal at `height` from the centre.
+  void plane_of(const double* normal, double height, double* plane) const;
+  /// m with m . a = (R a) . normal for all a: the sign says on which side of `normal` a plane faces.
+  void facing(const double* normal, double* m) const;
+
+ private:
+  std::size_t rank_ = 0, vertex_count_ = 0;
+  std::vector<double> factor_;
+  std::vector<PointId> point_of_row_;
+  std::vector<std::uint32_t> row_of_point_;
+  std::vector<double> rows_;
+  SupportTable table_;
+};
+
+}  // namespace ndhull
