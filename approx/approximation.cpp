@@ -16,6 +16,15 @@ namespace {
 
 constexpr std::uint32_t kNone = FacetId::kNone;
 
+/// How far outside a point is known to be; the furthest comes first.
+struct Reach {
+  double height;
+  PointId point;
+  bool operator<(const Reach& other) const {
+    return height != other.height ? height > other.height : point < other.point;
+  }
+};
+
 /// Growth aims at points this part of the facet width outside: what is left of the width then is free for
 /// merging. On spheres a quarter needs 1.15 times the facets that none would, a half 1.6 times.
 constexpr double kGrowthShare = 0.25;
@@ -32,32 +41,6 @@ constexpr double kOutsideSlack = 1.045;
 constexpr int kRounds = 24;
 
 }  // namespace
-
-ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit) {
-  ResolvedAccuracy lengths;
-  for (std::size_t k = 0; k < frame.dimension; ++k) {
-    const double extent = frame.column_max[k] - frame.column_min[k];
-    lengths.largest_extent = std::max(lengths.largest_extent, extent);
-  }
-  if (!unit.extents().empty() && lengths.largest_extent > 0.0) lengths.largest_extent = 1.0;
-  const auto length = [&](const Length& asked) {
-    return asked.is_percent ? 0.01 * asked.value * lengths.largest_extent : asked.value;
-  };
-  lengths.width = length(accuracy.width);
-  lengths.outside_width = length(accuracy.outside_width);
-  lengths.centrum_radius = length(accuracy.centrum_radius);
-  lengths.width_cap = length(accuracy.width_cap);
-  if (!accuracy.width_cap.is_set() && accuracy.merges_neighbours()) {
-    lengths.width_cap =
-        default_width_cap(lengths.outside_width, lengths.centrum_radius, lengths.largest_extent);
-  }
-  return lengths;
-}
-
-double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
-  if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
-  return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);
-}
 
 Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
                              std::vector<double> factor, CertifiedGrowth& growth, Hull& hull)
@@ -183,13 +166,6 @@ void Approximation::make_space(bool with_left_out) {
       vertices.push_back(id);
     }
   }
-  struct Reach {
-    double height;
-    PointId point;
-    bool operator<(const Reach& other) const {
-      return height != other.height ? height > other.height : point < other.point;
-    }
-  };
   std::vector<Reach> furthest;
   if (with_left_out) {
     std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
@@ -210,16 +186,12 @@ void Approximation::make_space(bool with_left_out) {
   std::sort(furthest.begin(), furthest.end());
   const std::size_t most = 2 * vertices.size() + 1024;
   if (furthest.size() > most) furthest.resize(most);
-  for (const PointId id : extra_) {
-    if (is_taken[id.value]) continue;
+  const auto take = [&](PointId id, std::vector<PointId>& list) {
+    if (!is_taken[id.value]) list.push_back(id);
     is_taken[id.value] = 1;
-    others.push_back(id);
-  }
-  for (const Reach& reach : furthest) {
-    if (is_taken[reach.point.value]) continue;
-    is_taken[reach.point.value] = 1;
-    others.push_back(reach.point);
-  }
+  };
+  for (const PointId id : extra_) take(id, others);
+  for (const Reach& reach : furthest) take(reach.point, others);
   space_.emplace(work.rank, factor_, growth_.coordinates(), work.point_count, vertices, others);
   left_out_rows_.clear();
   if (!with_left_out || growth_.left_out().empty()) return;

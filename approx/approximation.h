@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "approx/accuracy.h"
 #include "approx/certified_growth.h"
 #include "approx/facet_layout.h"
 #include "approx/hull.h"
@@ -12,13 +13,6 @@
 #include "approx/width_space.h"
 
 namespace ndhull {
-
-/// Lengths in the length unit; 0 where nothing was asked for.
-struct ResolvedAccuracy {
-  double width = 0.0, outside_width = 0.0, centrum_radius = 0.0, width_cap = 0.0;
-  double largest_extent = 0.0;
-};
-ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
 
 /// One approximate hull on its way.
 class Approximation {

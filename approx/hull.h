@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "approx/accuracy.h"
 #include "approx/facet_layout.h"
 #include "approx/length_unit.h"
 #include "core/dimension_switch.h"
@@ -43,31 +44,6 @@ struct Progress {
   double elapsed_seconds = 0.0;
   std::uint64_t memory_bytes = 0;
 };
-
-/// A length in the length unit, or in percent of the largest extent of the input in it.
-struct Length {
-  double value = 0.0;  ///< 0: not asked for
-  bool is_percent = false;
-  bool is_set() const { return value > 0.0; }
-};
-
-/// Which facets may be traded for which error. Nothing set: the exact hull.
-struct Accuracy {
-  Length width;              ///< target: no facet is wider than this (certified); as few facets as possible
-  std::uint64_t facets = 0;  ///< target: at most this many facets, as narrow as possible; 0: no target
-  Length outside_width;      ///< growth leaves out points that are less than this outside (W)
-  Length centrum_radius;     ///< merge while a centrum is less than this below its neighbour's plane (C)
-  double max_cosine = 2.0;   ///< merge while normals of neighbours agree more than this (A); above 1: off
-  Length width_cap;          ///< merging makes no facet wider than this; not set: see default_width_cap
-  bool is_exact() const {
-    return !width.is_set() && facets == 0 && !outside_width.is_set() && !merges_neighbours();
-  }
-  bool merges_neighbours() const { return centrum_radius.is_set() || max_cosine <= 1.0; }
-};
-
-/// The cap on the width of merged facets when none is given, lengths resolved: the larger of W + 0.9 C
-/// and 6.5 C; with max_cosine alone W + a tenth of the largest extent.
-double default_width_cap(double outside_width, double centrum_radius, double largest_extent);
 
 struct HullOptions {
   Accuracy accuracy = {};

@@ -13,7 +13,8 @@ from program import DIAMONDS, PROGRAM, fresh_folder, rbox, report_of, run, run_t
 KEYS = """ndhull input status options length_unit vertices facets simplicial_facets merged_facets simplices area
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
     interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
-OPTIONS = """max_facets max_seconds max_memory unit_cube triangulate threads seed largest
+OPTIONS = """width facets outside_width centrum_radius max_cosine width_cap
+    max_facets max_seconds max_memory unit_cube triangulate threads seed largest
     select min_area most_merged bounded outer_volume planes plane_kind vertices report
     facet_list format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
@@ -45,6 +46,25 @@ def test_report_of_the_diamonds():
     assert list(seconds) == phases and seconds["total"] >= sum(seconds[phase] for phase in phases[:-1]) * 0.99
     assert report["peak_memory_bytes"] > points.nbytes / 2
     assert "facet_list" not in report and "selected" not in report
+
+
+def test_targets_and_merging():
+    report = report_of(DIAMONDS, "--unit-cube", "--width", "8%", "--verify")
+    assert report["max_facet_width"] <= 0.08 and report["points_outside"] == 0, report["max_facet_width"]
+    assert report["width_ratio"] == report["max_facet_width"] / 0.08
+    assert report["options"]["width"] == "8%" and report["chosen"]["slab_width"] > 0
+    report = report_of(DIAMONDS, "--unit-cube", "--facets", "150", "--verify")
+    assert report["facets"] <= 150 and report["max_facet_width"] < 0.066, report["max_facet_width"]
+    report = report_of(DIAMONDS, "--unit-cube", "--outside-width", "0.01", "--centrum-radius", "0.01", "--verify")
+    assert report["facets"] <= 150 and report["max_facet_width"] <= 0.075, (report["facets"], report["max_facet_width"])
+    assert report["chosen"]["merges"] > 0 and abs(report["chosen"]["width_cap"] - 0.065) < 1e-6
+
+
+def test_accuracy_options_that_contradict():
+    for words in (["--width", "1", "--facets", "9"], ["--width", "1", "--centrum-radius", "1"],
+                  ["--width-cap", "1"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
+        done = run("hull", DIAMONDS, *words, exit_code=1)
+        assert done.stdout == "" and done.stderr.count("\n") == 1, (words, done.stderr)
 
 
 def test_options_in_the_report_are_those_in_force():

@@ -1,0 +1,33 @@
+#include "approx/accuracy.h"
+
+#include <algorithm>
+
+namespace ndhull {
+
+ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit) {
+  ResolvedAccuracy lengths;
+  for (std::size_t k = 0; k < frame.dimension; ++k) {
+    const double extent = frame.column_max[k] - frame.column_min[k];
+    lengths.largest_extent = std::max(lengths.largest_extent, extent);
+  }
+  if (!unit.extents().empty() && lengths.largest_extent > 0.0) lengths.largest_extent = 1.0;
+  const auto length = [&](const Length& asked) {
+    return asked.is_percent ? 0.01 * asked.value * lengths.largest_extent : asked.value;
+  };
+  lengths.width = length(accuracy.width);
+  lengths.outside_width = length(accuracy.outside_width);
+  lengths.centrum_radius = length(accuracy.centrum_radius);
+  lengths.width_cap = length(accuracy.width_cap);
+  if (!accuracy.width_cap.is_set() && accuracy.merges_neighbours()) {
+    lengths.width_cap =
+        default_width_cap(lengths.outside_width, lengths.centrum_radius, lengths.largest_extent);
+  }
+  return lengths;
+}
+
+double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
+  if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
+  return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);
+}
+
+}  // namespace ndhull

@@ -1,0 +1,223 @@
+// Laws of approximate hulls: the target is met, the width is what it says, no point is lost.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "approx/boundedness.h"
+#include "approx/verify.h"
+#include "tests/hull/hull_support.h"
+#include "tests/support/degeneracies.h"
+#include "tools/rbox.h"
+
+namespace ndhull {
+namespace {
+
+/// Outer minus inner of the widest facet from all points and all vertices of its simplices, in long double.
+long double measured_width(const Hull& hull, const PointView& points) {
+  long double widest = 0.0L;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const auto normal = hull.normal(FacetId{row});
+    const auto product = [&](std::size_t point) {
+      long double sum = 0.0L;
+      for (std::size_t k = 0; k < points.dimension; ++k)
+        sum += static_cast<long double>(normal[k]) * (points.at(point, k) - hull.reference[k]);
+      return sum;
+    };
+    long double high = -HUGE_VALL, low = HUGE_VALL;
+    for (std::size_t point = 0; point < points.rows; ++point) high = std::max(high, product(point));
+    for (const SimplexId simplex : hull.simplices_of(FacetId{row})) {
+      for (const PointId id : hull.simplices.vertices(simplex)) low = std::min(low, product(id.value));
+    }
+    widest = std::max(widest, (high - low) / hull.input_per_length_unit(FacetId{row}));
+  }
+  return widest;
+}
+
+/// What holds for every approximate hull.
+void expect_approximate_laws(const Hull& hull, const PointView& points) {
+  EXPECT_EQ(hull.points_outside, 0U);
+  ASSERT_GT(hull.facet_count(), hull.rank);
+  EXPECT_LE(largest_outer_excess(hull, points), 0.0L);
+  EXPECT_LE(largest_inner_excess(hull, points), 0.0L);
+  const long double measured = measured_width(hull, points);
+  EXPECT_GE(static_cast<long double>(hull.max_facet_width), measured - 1e-15L);
+  // An unmerged facet's offsets may lie on both sides of 0 by roundoff; apart from that the width is tight.
+  EXPECT_LE(static_cast<long double>(hull.max_facet_width),
+            measured * (1.0L + 1e-9L) + 20.0L * hull.roundoff);
+  const Verification verification = verify_hull(points, hull, VerifyMode::kFloating);
+  EXPECT_TRUE(verification.passed()) << verification.first_failure();
+  std::vector<double> normals;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const auto normal = hull.normal(FacetId{row});
+    normals.insert(normals.end(), normal.begin(), normal.end());
+  }
+  EXPECT_TRUE(find_open_direction(normals, hull.dimension, hull.subspace_equations).bounded);
+}
+
+struct Shape {
+  PointFamily family;
+  std::size_t n, d;
+};
+const Shape kShapes[] = {{PointFamily::kSphere, 400, 3},   {PointFamily::kSphere, 300, 5},
+                         {PointFamily::kBall, 500, 4},     {PointFamily::kGaussian, 3000, 5},
+                         {PointFamily::kGaussian, 200, 7}, {PointFamily::kCube, 400, 6},
+                         {PointFamily::kClusters, 500, 4}, {PointFamily::kEllipsoid, 300, 5},
+                         {PointFamily::kLens, 200, 4},     {PointFamily::kSphere, 60, 8}};
+
+TEST(ApproximateHullLaw, WidthIsMet) {
+  for (const Shape& shape : kShapes) {
+    for (const double percent : {1.0, 5.0, 20.0}) {
+      const PointSet set = family_points(shape.family, shape.n, shape.d, 20240601);
+      SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
+                   std::to_string(percent) + "%");
+      HullOptions options;
+      options.accuracy.width = {percent, true};
+      const Hull hull = hull_of(set, options);
+      EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set));
+      expect_approximate_laws(hull, set.view());
+    }
+  }
+}
+
+TEST(ApproximateHullLaw, NumberOfFacetsIsMet) {
+  for (const Shape& shape : kShapes) {
+    for (const std::uint64_t count : {shape.d + 1, 2 * shape.d, 40 * shape.d}) {
+      const PointSet set = family_points(shape.family, shape.n, shape.d, 20240602);
+      SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
+                   std::to_string(count) + " facets");
+      HullOptions options;
+      options.accuracy.facets = count;
+      const Hull hull = hull_of(set, options);
+      EXPECT_LE(hull.facet_count(), count);
+      expect_approximate_laws(hull, set.view());
+    }
+  }
+}
+
+TEST(ApproximateHullLaw, MoreFacetsAreNarrower) {
+  const PointSet set = family_points(PointFamily::kSphere, 500, 5, 7);
+  double last = HUGE_VAL;
+  for (const std::uint64_t count : {20U, 60U, 200U, 600U}) {
+    HullOptions options;
+    options.accuracy.facets = count;
+    const double width = hull_of(set, options).max_facet_width;
+    EXPECT_LT(width, last);
+    last = width;
+  }
+}
+
+TEST(ApproximateHullLaw, DegenerateInputsAreAnswered) {
+  for (std::size_t d = 2; d <= 6; ++d) {
+    for (const DegenerateCase& input : degenerate_cases(d <= 4 ? 100 : 50, d, 3)) {
+      SCOPED_TRACE(input.description);
+      HullOptions options;
+      options.accuracy.width = {5.0, true};
+      const Hull hull = hull_of(input.points, options);
+      EXPECT_LE(hull.max_facet_width, 0.05 * extent_of(input.points));
+      if (hull.rank >= 2) expect_approximate_laws(hull, input.points.view());
+    }
+  }
+}
+
+TEST(ApproximateHullLaw, SameForEveryNumberOfThreads) {
+  const PointSet set = family_points(PointFamily::kSphere, 400, 6, 11);
+  const auto planes_of = [&](unsigned threads) {
+    HullOptions options{.threads = threads};
+    options.accuracy.facets = 300;
+    const Hull hull = hull_of(set, options);
+    std::vector<double> numbers;
+    for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+      const auto normal = hull.normal(FacetId{row});
+      numbers.insert(numbers.end(), normal.begin(), normal.end());
+      numbers.insert(numbers.end(), {hull.offset(FacetId{row}), hull.outer_offset(FacetId{row})});
+    }
+    return numbers;
+  };
+  const std::vector<double> one = planes_of(1);
+  for (const unsigned threads : {2U, 3U}) {
+    const std::vector<double> several = planes_of(threads);
+    ASSERT_EQ(one.size(), several.size());
+    EXPECT_EQ(std::memcmp(one.data(), several.data(), one.size() * sizeof(double)), 0);
+  }
+}
+
+TEST(ApproximateHullLaw, UnitCubeMeasuresWidthsThere) {
+  PointSet set = family_points(PointFamily::kBall, 400, 4, 5);
+  const double factors[] = {1000.0, 1.0, 0.01, 1.0};
+  set = axis_scaled(set, factors);
+  HullOptions options{.unit_cube = true};
+  options.accuracy.width = {0.05, false};
+  const Hull hull = hull_of(set, options);
+  EXPECT_LE(hull.max_facet_width, 0.05);
+  EXPECT_GT(hull.max_facet_width, 0.02);
+  expect_approximate_laws(hull, set.view());
+}
+
+// The projection of a closed surface has no area left over: sum of area times outward normal is 0, for the
+// simplices and so for any grouping of them whose areas are projected ones only up to what each group hides.
+TEST(ApproximateHullExample, AreaOfAMergedCubeFaceIsTheFaces) {
+  PointSet cube =
+      generate_points({.family = PointFamily::kCubeCorners, .dimension = 5, .count = 32, .seed = 1});
+  HullOptions options;
+  options.accuracy.width = {0.01, false};
+  const Hull hull = hull_of(cube, options);
+  const double side = extent_of(cube);
+  ASSERT_EQ(hull.facet_count(), 10U);
+  for (std::uint32_t row = 0; row < 10; ++row)
+    EXPECT_NEAR(hull.area_of(FacetId{row}), std::pow(side, 4.0), 1e-9 * std::pow(side, 4.0));
+  EXPECT_NEAR(hull.area, 10.0 * std::pow(side, 4.0), 1e-8);
+}
+
+TEST(ApproximateHullOracle, AreaOfAMergedFacetIsItsProjection) {
+  const PointSet set = rbox("300 s D4 t1");
+  HullOptions options;
+  options.accuracy.facets = 40;
+  const Hull hull = hull_of(set, options);
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const auto normal = hull.normal(FacetId{row});
+    double projected = 0.0;  // det(edges of the simplex, normal) / 3! is the projected area of one simplex
+    for (const SimplexId simplex : hull.simplices_of(FacetId{row})) {
+      const auto ids = hull.simplices.vertices(simplex);
+      Eigen::Matrix4d edges;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        for (std::size_t i = 1; i < 4; ++i) {
+          edges(static_cast<Eigen::Index>(i) - 1, column) =
+              set.view().at(ids[i].value, k) - set.view().at(ids[0].value, k);
+        }
+        edges(3, column) = normal[k];
+      }
+      projected += std::abs(edges.determinant()) / 6.0;
+    }
+    // Simplices that face away from the plane's normal would count with the other sign; at this width none
+    // do.
+    EXPECT_NEAR(hull.area_of(FacetId{row}), projected, 1e-9);
+  }
+}
+
+TEST(OutsideWidthLaw, PointsLeftOutAreLessOutside) {
+  for (const Shape& shape : kShapes) {
+    const PointSet set = family_points(shape.family, shape.n, shape.d, 99);
+    SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d");
+    const double width = 0.05 * extent_of(set);
+    HullOptions options;
+    options.accuracy.outside_width = {width, false};
+    const Hull hull = hull_of(set, options);
+    EXPECT_LE(hull.max_outer_offset, 1.05 * width);
+    EXPECT_LE(hull.facet_count(), hull_of(set).facet_count());
+    expect_approximate_laws(hull, set.view());
+  }
+}
+
+TEST(ApproximateHullLaw, ALimitGivesACertifiedHullAllTheSame) {
+  const PointSet set = family_points(PointFamily::kSphere, 500, 6, 1);
+  HullOptions options{.limits = {.max_facets = 2000}};
+  options.accuracy.width = {0.001, false};
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, HullStatus::kFacetLimit);
+  expect_approximate_laws(hull, set.view());
+}
+
+}  // namespace
+}  // namespace ndhull

@@ -1,0 +1,70 @@
+// Merging under W, C and A: inputs on which Qhull's own merging ends without an answer, and the cap.
+#include "tests/hull/hull_support.h"
+#include "tools/rbox.h"
+
+namespace ndhull {
+namespace {
+
+Hull merged(const char* rbox_words, double outside, double centrum, double cap = 0.0) {
+  HullOptions options;
+  options.accuracy.outside_width = {outside, false};
+  options.accuracy.centrum_radius = {centrum, false};
+  options.accuracy.width_cap = {cap, false};
+  return hull_of(rbox(rbox_words), options);
+}
+
+// Qhull ends with QH6227 and no output for these with C-1e-2.
+TEST(MergeLaw, InputsThatQhullGivesUpAreAnswered) {
+  for (const char* words : {"300 s D6 t1", "100 s D7 t1", "60 s D8 t1", "500 L20 s D5 t1"}) {
+    SCOPED_TRACE(words);
+    const Hull hull = merged(words, 0.0, 0.01);
+    EXPECT_GT(hull.facet_count(), hull.rank);
+    EXPECT_EQ(hull.points_outside, 0U);
+    EXPECT_LE(hull.max_facet_width, default_width_cap(0.0, 0.01, 1.0));
+    EXPECT_LE(largest_outer_excess(hull, rbox(words).view()), 0.0L);
+  }
+}
+
+TEST(MergeLaw, LargerRadiusGivesFewerFacets) {
+  std::size_t last = 1'000'000;
+  for (const double radius : {0.001, 0.004, 0.016, 0.06}) {
+    const Hull hull = merged("200 s D5 t1", 0.0, radius);
+    EXPECT_LT(hull.facet_count(), last);
+    last = hull.facet_count();
+  }
+}
+
+TEST(MergeLaw, CapHoldsAndRefusedMergesAreCounted) {
+  const Hull free = merged("200 s D5 t1", 0.0, 0.02);
+  const Hull capped = merged("200 s D5 t1", 0.0, 0.02, 0.04);
+  EXPECT_LE(capped.max_facet_width, 0.04);
+  EXPECT_GT(free.max_facet_width, 0.04);
+  EXPECT_GT(capped.chosen.refused_merges, 0U);
+  EXPECT_GT(capped.facet_count(), free.facet_count());
+}
+
+// A tiny radius merges what is flat and no more, however large W is.
+TEST(MergeLaw, TinyRadiusMergesHardlyAnything) {
+  HullOptions options;
+  options.accuracy.outside_width = {0.1, false};
+  const PointSet set = rbox("500 s D5 t1");
+  const std::size_t unmerged = hull_of(set, options).facet_count();
+  options.accuracy.centrum_radius = {1e-9, false};
+  EXPECT_GE(hull_of(set, options).facet_count(), unmerged * 9 / 10);
+}
+
+TEST(MergeLaw, CosineMergesNeighboursThatAgree) {
+  const PointSet set = rbox("200 s D4 t1");
+  HullOptions options;
+  std::size_t last = 1'000'000;
+  for (const double cosine : {0.999, 0.99, 0.95}) {
+    options.accuracy.max_cosine = cosine;
+    const Hull hull = hull_of(set, options);
+    EXPECT_LT(hull.facet_count(), last);
+    EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+    last = hull.facet_count();
+  }
+}
+
+}  // namespace
+}  // namespace ndhull
