@@ -250,18 +250,15 @@ void Approximation::add_offenders(const Covering& covering, const std::vector<do
   extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
 }
 
-bool Approximation::is_bounded(const Covering& covering) const {
-  std::vector<double> normals;
-  for (const FittedPlane& plane : covering.planes)
-    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
-  return find_open_direction(normals, space_->rank()).bounded;
-}
-
 /// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
 /// the hull is high everywhere, that is certain.
 bool Approximation::keeps_hull(const Covering& covering) const {
   if (covering.planes.size() <= space_->rank()) return false;
-  return covering.planes.size() > 1000 || is_bounded(covering);
+  if (covering.planes.size() > 1000) return true;
+  std::vector<double> normals;
+  for (const FittedPlane& plane : covering.planes)
+    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
+  return find_open_direction(normals, space_->rank()).bounded;
 }
 
 Covering Approximation::cover_width(double width, const CoverEffort& effort) {

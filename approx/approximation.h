@@ -32,7 +32,6 @@ class Approximation {
   void make_space(bool with_left_out);
   Covering cover_width(double width, const CoverEffort& effort);
   Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width);
-  bool is_bounded(const Covering& covering) const;
   bool keeps_hull(const Covering& covering) const;
   std::vector<double> true_widths(const Covering& covering);
   void add_offenders(const Covering& covering, const std::vector<double>& widths, double width);
