@@ -37,6 +37,10 @@ constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// A point that is less than W above the simplex it lies over may be this much more above another one. Taking
 /// those in as well costs 2.3 times the facets on 10^5 sphere points in 8-d with W 0.3.
 constexpr double kOutsideSlack = 1.045;
+/// As many points left out are all seen by the fits; of more, the furthest over each simplex.
+constexpr std::size_t kFewLeftOut = 4096;
+/// Facets from which on neighbours are not tried again for what fits into one slab.
+constexpr std::size_t kFewFacets = 256;
 /// Rounds of smaller slabs and more growth before the best so far is taken.
 constexpr int kRounds = 24;
 
@@ -65,9 +69,7 @@ void Approximation::grow_outside_width() {
     const bool finished = growth_.grow_to(lengths_.outside_width, 0, 0.0);
     growth_.locate_left_out();
     if (!finished) break;
-    const std::uint64_t before = hull_.statistics.repair_rounds;
-    put_back_above(lengths_.outside_width);
-    if (hull_.statistics.repair_rounds == before) break;
+    if (!put_back_above(lengths_.outside_width)) break;
   }
   hull_.chosen.outside_width = lengths_.outside_width;
 }
@@ -101,11 +103,11 @@ FacetClusters Approximation::run_merging() {
   hull_.chosen.width_cap = cap;
   hull_.chosen.merges = counts.merges;
   hull_.chosen.refused_merges = counts.refused;
-  return clusters_of(covering);
+  return clusters_of(covering, *space_);
 }
 
-/// Puts points back that are more than `width` above any simplex.
-void Approximation::put_back_above(double width) {
+/// Puts points back that are more than `width` above any simplex; false when there are none.
+bool Approximation::put_back_above(double width) {
   const SimplicialComplex& complex = growth_.work().complex;
   const std::size_t rank = complex.rank;
   struct Height {  // of a simplex's plane above the centre: a gauge times this is a distance
@@ -140,16 +142,17 @@ void Approximation::put_back_above(double width) {
     }
   });
   std::erase_if(above, [](const LocatedPoint& point) { return !point.point.valid(); });
-  if (above.empty()) return;
+  if (above.empty()) return false;
   // The furthest alone: the simplices that they bring may well be all that the others need.
   double worst = 0.0;
   const auto height = [&](const LocatedPoint& point) {
     return height_above(growth_.work(), point.simplex.value, point.gauge);
   };
   for (const LocatedPoint& point : above) worst = std::max(worst, height(point));
-  if (worst <= kOutsideSlack * width) return;
+  if (worst <= kOutsideSlack * width) return false;
   std::erase_if(above, [&](const LocatedPoint& point) { return height(point) < 0.5 * (width + worst); });
   growth_.put_back(above);
+  return true;
 }
 
 /// The space of fits: vertices; points outside that reach furthest, one a simplex at most; those met before.
@@ -168,14 +171,16 @@ void Approximation::make_space(bool with_left_out) {
   }
   std::vector<Reach> furthest;
   if (with_left_out) {
+    const bool are_few = growth_.left_out().size() <= kFewLeftOut;
     std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
     for (const LocatedPoint& point : growth_.left_out()) {
+      if (are_few) furthest.push_back({0.0, point.point});
       const double height = height_above(work, point.simplex.value, point.gauge);
       const Reach reach{std::isfinite(height) ? height : HUGE_VAL, point.point};
       if (reach < of_row[point.simplex.value]) of_row[point.simplex.value] = reach;
     }
     for (const Reach& reach : of_row)
-      if (reach.point.valid()) furthest.push_back(reach);
+      if (!are_few && reach.point.valid()) furthest.push_back(reach);
   } else {
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
@@ -184,7 +189,7 @@ void Approximation::make_space(bool with_left_out) {
     }
   }
   std::sort(furthest.begin(), furthest.end());
-  const std::size_t most = 2 * vertices.size() + 1024;
+  const std::size_t most = std::max(2 * vertices.size() + 1024, kFewLeftOut);
   if (furthest.size() > most) furthest.resize(most);
   const auto take = [&](PointId id, std::vector<PointId>& list) {
     if (!is_taken[id.value]) list.push_back(id);
@@ -271,6 +276,13 @@ Covering Approximation::cover_width(double width, const CoverEffort& effort) {
     if (covering.planes.size() == cover.live_count()) break;
   }
   hull_.chosen.slab_width = width;
+  // Slabs of degenerate data start from planes that rounding has drawn: two may share what one could hold.
+  if (covering.planes.size() <= kFewFacets || growth_.work().counters.shifted > 0) {
+    const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
+    Covering joined = covering;
+    merge_clusters(growth_.work().complex, *space_, any, joined);
+    if (keeps_hull(joined)) covering = std::move(joined);
+  }
   return covering;
 }
 
@@ -299,7 +311,7 @@ FacetClusters Approximation::run_width() {
     }
   }
   hull_.chosen.outside_width = outside_width;
-  return clusters_of(covering);
+  return clusters_of(covering, *space_);
 }
 
 /// The least width found that needs at most `count` facets. The number falls like a power of the width, about
@@ -346,11 +358,10 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
 FacetClusters Approximation::run_count() {
   const std::uint64_t count = accuracy_.facets;
   const CoverEffort quick{.final_fit_steps = 0};
-  const bool is_given = lengths_.outside_width > 0.0;
   const std::uint64_t most = std::max(kManySimplices, kSimplicesPerFacet * count);
   double outside_width = lengths_.outside_width;
   double width = 0.1 * lengths_.largest_extent;
-  if (!is_given &&
+  if (outside_width == 0.0 &&
       !growth_.grow_to(0.0, std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count), HUGE_VAL) &&
       !growth_.is_limited()) {
     make_space(false);
@@ -358,7 +369,7 @@ FacetClusters Approximation::run_count() {
     if (!covering.planes.empty()) width = hull_.chosen.slab_width;
     outside_width = kGrowthShare * width;
     if (growth_.furthest_height() > outside_width) growth_.grow_to(outside_width, most, HUGE_VAL);
-  } else if (is_given) {
+  } else if (outside_width > 0.0 && lengths_.outside_width > 0.0) {
     growth_.grow_to(outside_width, 0, HUGE_VAL);
   }
   growth_.locate_left_out();
@@ -380,26 +391,10 @@ FacetClusters Approximation::run_count() {
     best = std::move(better);
     if (is_true) break;
   }
+  if (best.planes.empty())
+    best = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
   hull_.chosen.outside_width = outside_width;
-  return clusters_of(best);
-}
-
-FacetClusters Approximation::clusters_of(const Covering& covering) const {
-  FacetClusters clusters;
-  if (covering.planes.empty()) return clusters;
-  const std::size_t rank = space_->rank();
-  clusters.cluster_of.assign(covering.facet_of.size(), kNone);
-  std::vector<std::uint32_t> cluster(covering.planes.size(), kNone);
-  for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
-    const FittedPlane& plane = covering.planes[facet];
-    if (plane.height == 0.0) continue;
-    cluster[facet] = clusters.count++;
-    clusters.planes.resize(clusters.count * rank);
-    space_->plane_of(plane.normal.data(), plane.height, clusters.planes.data() + cluster[facet] * rank);
-  }
-  for (std::size_t row = 0; row < covering.facet_of.size(); ++row)
-    if (covering.facet_of[row] != kNone) clusters.cluster_of[row] = cluster[covering.facet_of[row]];
-  return clusters;
+  return clusters_of(best, *space_);
 }
 
 }  // namespace ndhull

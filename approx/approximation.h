@@ -35,8 +35,7 @@ class Approximation {
   bool keeps_hull(const Covering& covering) const;
   std::vector<double> true_widths(const Covering& covering);
   void add_offenders(const Covering& covering, const std::vector<double>& widths, double width);
-  void put_back_above(double width);
-  FacetClusters clusters_of(const Covering& covering) const;
+  bool put_back_above(double width);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();

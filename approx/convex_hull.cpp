@@ -169,7 +169,7 @@ class HullBuilder {
     hull_.min_inner_offset = table.min_inner;
     hull_.max_facet_width = table.max_width;
     hull_.roundoff = table.roundoff;
-    hull_.area = table.area;
+    hull_.area = hull_.is_approximate ? table.surface : table.area;
     hull_.volume = table.volume;
     hull_.own_ids_.resize(complex().row_count);
     for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};

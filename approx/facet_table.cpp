@@ -39,6 +39,20 @@ void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, co
   }
 }
 
+/// Sets entries of the merged facets' planes to 0 that are rounding of their fits. In the frame all axes are
+/// alike; on long ones such entries would look like a tilt, and six sides of a box would seem to bound a
+/// region in 4-d.
+void drop_rounding(SimplicialComplex& complex, const FacetLayout& layout) {
+  constexpr double kRounding = 8.0 * 0x1p-52;
+  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet) {
+    double* plane = complex.planes.data() + facet * complex.rank;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < complex.rank; ++k) largest = std::max(largest, std::abs(plane[k]));
+    for (std::size_t k = 0; k < complex.rank; ++k)
+      if (std::abs(plane[k]) < kRounding * largest) plane[k] = 0.0;
+  }
+}
+
 /// Areas of the merged facets: of the projection of their simplices onto their plane.
 void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
                    double area_per_determinant, HugeArray<double>& areas) {
@@ -93,6 +107,7 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
   const std::size_t dimension = frame.dimension;
   const std::size_t count = layout.facets;
   FacetTable table;
+  drop_rounding(complex, layout);
   if (frame.rank == dimension) {
     table.normals = std::move(complex.planes);
     map_normals(frame, table.normals.data(), count, table.normals.data());
@@ -131,12 +146,16 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
   for (std::size_t facet = 0; facet < count; ++facet) {
     const std::span<const double> normal = normals.subspan(facet * dimension, dimension);
-    const double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
-    double size = std::abs(offset), size_input = std::abs(offset), height = -offset;
+    double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
+    double centre = 0.0;
+    for (std::size_t k = 0; k < dimension; ++k) centre += normal[k] * (frame.centre[k] - points.reference[k]);
+    // The plane midway of a very wide facet may pass below the interior point; the supporting one never does.
+    if (-offset <= centre) offset = -std::max(high[facet], highest[facet]);
+    const double height = -offset - centre;
+    double size = std::abs(offset), size_input = std::abs(offset);
     for (std::size_t k = 0; k < dimension; ++k) {
       size += std::abs(normal[k]) * points.largest[k];
       size_input += std::abs(normal[k]) * points.largest_input[k];
-      height -= normal[k] * (frame.centre[k] - points.reference[k]);
     }
     // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
     const double error = sum_error(dimension + 3, size);
@@ -160,7 +179,9 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
   }
   const double area_per_determinant = static_cast<double>(frame.rank) * volume_per_determinant;
   project_areas(layout, frame, normals, area_per_determinant, table.areas);
-  table.area += layout.merged_surface * area_per_determinant;
+  table.surface = table.area + layout.merged_surface * area_per_determinant;
+  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet)
+    table.area += table.areas[facet];
   return table;
 }
 

@@ -38,7 +38,9 @@ struct FacetTable {
   HugeArray<double> outer;    ///< [distance, length unit] >= 0: all certificate points are below
   HugeArray<double> inner;  ///< [distance, length unit] <= 0: all vertices of the facet's simplices are above
   HugeArray<double> areas;  ///< [area, input units]
-  double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, area = 0.0, volume = 0.0;
+  double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0;
+  double area = 0.0;     ///< sum of the facets' areas
+  double surface = 0.0;  ///< sum of the simplices' areas, which merged facets see in projection only
 };
 
 /// Makes planes, certificates and areas of all facets.

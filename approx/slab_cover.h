@@ -17,20 +17,13 @@
 #include <span>
 #include <vector>
 
+#include "approx/covering.h"
 #include "approx/merge_rule.h"
 #include "approx/plane_fit.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
-
-/// Which simplices make up which facet, with the planes.
-struct Covering {
-  std::vector<std::uint32_t> facet_of;  ///< per row of the complex; kNone in free rows
-  /// One a facet; height 0: a simplex that stayed alone, with its own normal, and was not measured.
-  std::vector<FittedPlane> planes;
-  double widest = 0.0;  ///< [distance] over the points of the WidthSpace, of the measured ones
-};
 
 /// How hard to look for few facets.
 struct CoverEffort {

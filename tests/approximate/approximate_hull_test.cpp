@@ -154,11 +154,8 @@ TEST(ApproximateHullLaw, UnitCubeMeasuresWidthsThere) {
   expect_approximate_laws(hull, set.view());
 }
 
-// The projection of a closed surface has no area left over: sum of area times outward normal is 0, for the
-// simplices and so for any grouping of them whose areas are projected ones only up to what each group hides.
 TEST(ApproximateHullExample, AreaOfAMergedCubeFaceIsTheFaces) {
-  PointSet cube =
-      generate_points({.family = PointFamily::kCubeCorners, .dimension = 5, .count = 32, .seed = 1});
+  const PointSet cube = rbox("c D5");
   HullOptions options;
   options.accuracy.width = {0.01, false};
   const Hull hull = hull_of(cube, options);

@@ -1,0 +1,97 @@
+#include "approx/covering.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace ndhull {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+
+/// Outward unit normals of the frame's first simplex.
+std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, const Frame& frame,
+                                                       const double* coordinates) {
+  const auto rank = static_cast<Eigen::Index>(space.rank());
+  std::vector<std::vector<double>> normals;
+  for (std::size_t omitted = 0; omitted < frame.simplex.size(); ++omitted) {
+    Eigen::MatrixXd rows(rank, rank);
+    for (std::size_t from = 0, row = 0; from < frame.simplex.size(); ++from) {
+      if (from == omitted) continue;
+      const double* y = coordinates + std::size_t{frame.simplex[from].value} * space.rank();
+      rows.row(static_cast<Eigen::Index>(row++)) = Eigen::Map<const Eigen::RowVectorXd>(y, rank);
+    }
+    const Eigen::VectorXd plane = rows.partialPivLu().solve(Eigen::VectorXd::Ones(rank));
+    normals.emplace_back(space.rank());
+    space.normal_of({plane.data(), space.rank()}, normals.back().data());
+  }
+  return normals;
+}
+
+double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t simplex,
+              const std::vector<double>& dots) {
+  double low = HUGE_VAL;
+  for (const PointId id : complex.vertices(SimplexId{simplex})) low = std::min(low, dots[space.row_of(id)]);
+  return low;
+}
+
+}  // namespace
+
+FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {
+  FacetClusters clusters;
+  if (covering.planes.empty()) return clusters;
+  const std::size_t rank = space.rank();
+  clusters.cluster_of.assign(covering.facet_of.size(), kNone);
+  std::vector<std::uint32_t> cluster(covering.planes.size(), kNone);
+  for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
+    const FittedPlane& plane = covering.planes[facet];
+    if (plane.height == 0.0) continue;
+    cluster[facet] = clusters.count++;
+    clusters.planes.resize(clusters.count * rank);
+    space.plane_of(plane.normal.data(), plane.height, clusters.planes.data() + cluster[facet] * rank);
+  }
+  for (std::size_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) clusters.cluster_of[row] = cluster[covering.facet_of[row]];
+  return clusters;
+}
+
+Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpace& space, const Frame& frame,
+                                const double* coordinates) {
+  const std::vector<std::vector<double>> normals = first_simplex_normals(space, frame, coordinates);
+  Covering covering;
+  covering.facet_of.assign(complex.row_count, kNone);
+  std::vector<double> depth_of(complex.row_count, HUGE_VAL);
+  std::vector<std::uint32_t> highest;  // the simplex that a facet keeps whatever comes
+  PlaneFitWork work;
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) {
+    covering.planes.push_back(measure_plane(space, normals[facet], {}, work));
+    std::uint32_t own = kNone;
+    double least = HUGE_VAL;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (complex.state[row] != SimplexState::kLive) continue;
+      const double depth = covering.planes[facet].height - low_of(complex, space, row, work.dots);
+      if (depth < least && std::find(highest.begin(), highest.end(), row) == highest.end()) {
+        least = depth;
+        own = row;
+      }
+      if (depth >= depth_of[row]) continue;
+      depth_of[row] = depth;
+      covering.facet_of[row] = facet;
+    }
+    highest.push_back(own);
+  }
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) covering.facet_of[highest[facet]] = facet;
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) {
+    FittedPlane& plane = covering.planes[facet];
+    measure_plane(space, plane.normal, {}, work);
+    plane.low = HUGE_VAL;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (covering.facet_of[row] == facet)
+        plane.low = std::min(plane.low, low_of(complex, space, row, work.dots));
+    }
+    covering.widest = std::max(covering.widest, plane.width());
+  }
+  return covering;
+}
+
+}  // namespace ndhull
