@@ -23,12 +23,19 @@ BenchCase sphere_case(const std::string& arguments, double qhull_seconds) {
 }
 
 // As doubles, because Qhull takes nothing else.
-BenchInput load_diamonds(const std::string& data_folder) {
-  const PointFile file = read_points(data_folder + "/diamonds7.npy");
+BenchInput load_data(const std::string& path) {
+  const PointFile file = read_points(path);
   const PointView view = file.view();
   PointSet points{view.dimension, std::vector<double>(view.rows * view.dimension), {}};
   for (std::size_t row = 0; row < view.rows; ++row) view.copy_row(row, points.row(row).data());
   return {std::move(points), {}};
+}
+
+BenchCase data_case(const std::string& name, const std::string& file, double qhull_seconds) {
+  return {.name = name,
+          .unit_cube = true,
+          .qhull_seconds = qhull_seconds,
+          .load = [file](const std::string& data_folder) { return load_data(data_folder + "/" + file); }};
 }
 
 // Of x_ij + x_ji = 1 one is enough: the coordinates with i < j.
@@ -57,8 +64,7 @@ std::vector<BenchCase> all_bench_cases() {
       rbox_case("10000 D6", 2.1),       rbox_case("1000 D8", 103.0),      rbox_case("c D8", 1.3),
       rbox_case("c D9", 70.0),          rbox_case("1000 W1e-13 D5", 0.2),
   };
-  cases.push_back(
-      {.name = "diamonds, unit cube", .unit_cube = true, .qhull_seconds = 0.7, .load = load_diamonds});
+  cases.push_back(data_case("diamonds, unit cube", "diamonds7.npy", 0.7));
   cases.push_back({.name = "cut polytope 6", .qhull_seconds = 60.0, .load = [](const std::string&) {
                      return BenchInput{cut_polytope(6).points, {}};
                    }});
@@ -66,6 +72,14 @@ std::vector<BenchCase> all_bench_cases() {
                      return load_linear_ordering(5);
                    }});
   return cases;
+}
+
+BenchCase named_bench_input(const std::string& name) {
+  if (name == "abalone, unit cube") return data_case(name, "abalone7.npy", 1.0);
+  for (BenchCase& bench_case : all_bench_cases()) {
+    if (bench_case.name == name) return std::move(bench_case);
+  }
+  return rbox_case(name, 0.0);
 }
 
 void CaseSelection::add_options(CLI::App& command) {
@@ -78,12 +92,14 @@ void CaseSelection::add_options(CLI::App& command) {
 std::vector<BenchCase> CaseSelection::cases() const {
   std::vector<BenchCase> chosen;
   for (BenchCase& bench_case : all_bench_cases()) {
-    if (bench_case.name.find(only) != std::string::npos) chosen.push_back(std::move(bench_case));
+    if (is_chosen(bench_case.name)) chosen.push_back(std::move(bench_case));
   }
-  if (chosen.empty()) {
-    throw Error(ErrorCode::kUsage, fmt::format("no input has \"{}\" in its name: see --list", only));
-  }
+  if (chosen.empty()) refuse();
   return chosen;
+}
+
+void CaseSelection::refuse() const {
+  throw Error(ErrorCode::kUsage, fmt::format("no input has \"{}\" in its name: see --list", only));
 }
 
 bool CaseSelection::print_list() const {

@@ -32,7 +32,10 @@ struct BenchCase {
   bool is_slow_for_qhull() const { return qhull_seconds > kSlowSeconds; }
 };
 
-/// All cases, in the order of the tables.
+/// The input called `name`: one of the list below, "abalone, unit cube", or an rbox command.
+BenchCase named_bench_input(const std::string& name);
+
+/// All cases of exact hulls, in the order of the tables.
 std::vector<BenchCase> all_bench_cases();
 
 /// The options by which every command picks cases.
@@ -42,8 +45,11 @@ struct CaseSelection {
   std::string data_folder;  ///< where bench/data is
 
   void add_options(CLI::App& command);
+  bool is_chosen(const std::string& name) const { return name.find(only) != std::string::npos; }
   /// Throws Error kUsage when no name matches.
   std::vector<BenchCase> cases() const;
+  /// Throws it.
+  [[noreturn]] void refuse() const;
   /// With `list`, prints the names and returns true.
   bool print_list() const;
 };

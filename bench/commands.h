@@ -11,6 +11,8 @@ struct EngineFailed : std::runtime_error {
   EngineFailed() : std::runtime_error("a run of ndhull failed") {}
 };
 
+/// `approximate`: approximate hulls of ndhull and Qhull.
+void add_approximate_command(CLI::App& app);
 /// `peers`: ndhull and Qhull side by side.
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.

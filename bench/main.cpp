@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   // One line a command; the order is that of --help.
   ndhull::add_peers_command(app);
+  ndhull::add_approximate_command(app);
   ndhull::add_phases_command(app);
   ndhull::add_rays_command(app);
   try {

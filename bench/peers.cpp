@@ -13,6 +13,7 @@
 #include "bench/commands.h"
 #include "bench/hull_run.h"
 #include "bench/machine.h"
+#include "bench/run_record.h"
 #include "bench/sample.h"
 #include "core/error.h"
 
@@ -55,16 +56,6 @@ struct Comparison {
   }
 };
 
-std::string end_name(ChildResult::End end) {
-  switch (end) {
-    case ChildResult::End::kDone: return "done";
-    case ChildResult::End::kFailed: return "failed";
-    case ChildResult::End::kCrashed: return "crashed";
-    case ChildResult::End::kTimeLimit: return "time_limit";
-  }
-  return {};
-}
-
 nlohmann::json to_record(const ChildResult& result) {
   nlohmann::json record = result.done() ? result.values : nlohmann::json{{"reason", result.reason}};
   record["end"] = end_name(result.end);
@@ -98,16 +89,20 @@ nlohmann::json run_round(unsigned round, const BenchInput& input, const PeersOpt
                          {"round", round},
                          {"points", comparison.points},
                          {"dimension", comparison.dimension}};
+  HullOptions hull_options;
+  hull_options.unit_cube = bench_case.unit_cube;
+  hull_options.threads = 1;
   std::optional<ChildResult> ndhull, qhull;
   for (const bool turn_of_qhull : {round % 2 == 1, round % 2 == 0}) {
     if (turn_of_qhull && due_qhull) {
-      qhull = run_in_child([&] { return nlohmann::json(run_qhull(input, bench_case.unit_cube)); },
-                           options.max_seconds);
+      qhull =
+          run_in_child([&] { return nlohmann::json(run_qhull(input, bench_case.unit_cube ? "QbB" : "")); },
+                       options.max_seconds);
       add_run(*qhull, comparison.qhull);
       line["qhull"] = to_record(*qhull);
     } else if (!turn_of_qhull && due_ndhull) {
-      ndhull = run_in_child([&] { return nlohmann::json(run_ndhull(input, bench_case.unit_cube)); },
-                            options.max_seconds);
+      ndhull =
+          run_in_child([&] { return nlohmann::json(run_ndhull(input, hull_options)); }, options.max_seconds);
       add_run(*ndhull, comparison.ndhull);
       line["ndhull"] = to_record(*ndhull);
     }

@@ -36,11 +36,13 @@ struct PhasesRow {
 PhasesRow measure(const BenchCase& bench_case, const PhasesOptions& options) {
   PhasesRow row{.name = bench_case.name, .failure = {}, .seconds = 0.0, .clocks = {}};
   const BenchInput input = bench_case.load(options.selection.data_folder);
+  HullOptions hull_options;
+  hull_options.unit_cube = bench_case.unit_cube;
+  hull_options.threads = options.threads;
   std::vector<HullRun> runs;
   for (unsigned round = 0; round < options.rounds; ++round) {
     const ChildResult result =
-        run_in_child([&] { return nlohmann::json(run_ndhull(input, bench_case.unit_cube, options.threads)); },
-                     options.max_seconds);
+        run_in_child([&] { return nlohmann::json(run_ndhull(input, hull_options)); }, options.max_seconds);
     if (!result.done()) {
       row.failure = result.reason;
       return row;

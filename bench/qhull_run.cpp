@@ -60,11 +60,14 @@ int compute(qhT* qh, char* command, coordT* points, int count, int dimension, Hu
   run.cpu_seconds = watch.cpu_seconds();
 
   run.facets = static_cast<std::uint64_t>(qh->num_facets - qh->num_visible);
+  run.vertices = static_cast<std::uint64_t>(qh->num_vertices - qh_setsize(qh, qh->del_vertices));
   facetT* facet;
   FORALLfacets {
     realT outer = 0.0, inner = 0.0;
     qh_outerinner(qh, facet, &outer, &inner);
     run.max_facet_width = std::max(run.max_facet_width, outer - inner);
+    run.max_outer_offset = std::max(run.max_outer_offset, outer);
+    run.min_inner_offset = std::min(run.min_inner_offset, inner);
   }
   qh->NOerrexit = True;
   return 0;
@@ -72,10 +75,10 @@ int compute(qhT* qh, char* command, coordT* points, int count, int dimension, Hu
 
 }  // namespace
 
-HullRun run_qhull(const BenchInput& input, bool unit_cube) {
+HullRun run_qhull(const BenchInput& input, const std::string& options) {
   const PointSet& points = input.qhull_points();
   coordT* data = const_cast<coordT*>(points.coordinates.data());  // not changed: QbB scales a copy
-  std::string command = unit_cube ? "qhull QbB" : "qhull";
+  std::string command = "qhull " + options;
   Messages messages;
   HullRun run;
 

@@ -41,6 +41,36 @@ def test_a_time_limit_is_reported_and_the_bench_goes_on():
     assert table.count("stopped after") == 2, table
 
 
+def records_of(path):
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+
+
+def test_approximate_compares_options_facets_and_width():
+    path = SCRATCH / "approximate.jsonl"
+    words = ["approximate", "--only", "2000 s D5", "--rounds", "1", "--widths", "10%,20%"]
+    table = run(*words, "--json", str(path))
+    records = {(record["engine"], record["task"], record["options"]): record for record in records_of(path)}
+    qhull = records["qhull", "equal options", "W0.1 C0.01"]
+    # What `rbox "2000 s D5 t1" | qhull W0.1 C0.01 s` prints: 562 facets, 138 vertices, 0.1 above, 0.082 below.
+    assert (qhull["facets"], qhull["vertices"]) == (562, 138), qhull
+    assert abs(qhull["max_outer_offset"] - 0.1) < 5e-4 and abs(qhull["min_inner_offset"] + 0.082) < 5e-4, qhull
+    assert records["ndhull", "equal facets", "facets 562"]["facets"] <= 562
+    same_width = records["ndhull", "equal width", f"width {qhull['max_facet_width']}"]
+    assert same_width["max_facet_width"] <= qhull["max_facet_width"]
+    assert records["ndhull", "targets", "exact"]["facets"] == 56576
+    assert records["ndhull", "targets", "width 20%"]["max_facet_width"] <= 0.2
+    for title in ("The same options", "The same number of facets", "The same width", "beside the exact one"):
+        assert title in table, table
+
+    again = run(*words, "--skip-targets", "--qhull-from", str(path), "--json", str(SCRATCH / "again.jsonl"))
+    kept = [record for record in records_of(SCRATCH / "again.jsonl") if record["engine"] == "qhull"]
+    assert len(kept) == 1 and kept[0]["wall_seconds"] == qhull["wall_seconds"] and "562" in again, kept
+    alone = run(*words, "--skip-qhull", "--skip-targets")
+    assert "The same options" in alone and "The same width" not in alone, alone
+    path.write_text("{}\n", encoding="utf-8")
+    run(*words, "--qhull-from", str(path), exit_code=1)
+
+
 def test_phases_names_the_phases():
     table = run("phases", "--only", "c D8", "--rounds", "1")
     assert all(word in table for word in ("total", "growth", "certify", "merge")), table

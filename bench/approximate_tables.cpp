@@ -1,0 +1,171 @@
+#include "bench/approximate_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace ndhull {
+namespace {
+
+/// The runs of one case, engines apart.
+struct Group {
+  std::string name, options;
+  Repeats qhull, equal_options, equal_facets, equal_width;
+  std::vector<std::pair<std::string, Repeats>> targets;  // by options, in the order of the file
+};
+
+Repeats& target_of(const std::string& options, Group& group) {
+  for (auto& [text, repeats] : group.targets) {
+    if (text == options) return repeats;
+  }
+  return group.targets.emplace_back(options, Repeats{}).second;
+}
+
+std::vector<Group> groups_of(const std::vector<RunRecord>& records) {
+  std::vector<Group> groups;
+  for (const RunRecord& record : records) {
+    if (record.command != "approximate") continue;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& candidate) { return candidate.name == record.group; });
+    if (group == groups.end()) {
+      groups.emplace_back().name = record.group;
+      group = groups.end() - 1;
+    }
+    if (record.task == approximate_task::kEqualFacets) {
+      add_repeat(record, group->equal_facets);
+    } else if (record.task == approximate_task::kEqualWidth) {
+      add_repeat(record, group->equal_width);
+    } else if (record.task == approximate_task::kTargets) {
+      add_repeat(record, target_of(record.key.options, *group));
+    } else if (record.key.engine == "qhull") {
+      add_repeat(record, group->qhull);
+    } else {
+      add_repeat(record, group->equal_options);
+    }
+  }
+  return groups;
+}
+
+/// [distance] Highest outer plane to lowest vertex, of all facets together: what Qhull prints.
+double span_of(const HullRun& run) { return run.max_outer_offset - run.min_inner_offset; }
+
+std::string ratio(double numerator, double denominator) { return short_number(numerator / denominator); }
+
+// "0.182 (0.144)": of all facets together, and the widest single one.
+std::string qhull_width(const HullRun& run) {
+  return fmt::format("{} ({})", short_number(span_of(run)), short_number(run.max_facet_width));
+}
+
+// ndhull's widest facet over both of Qhull's.
+std::string width_ratio(const HullRun& ndhull, const HullRun& qhull) {
+  return fmt::format("{} ({})", ratio(ndhull.max_facet_width, span_of(qhull)),
+                     ratio(ndhull.max_facet_width, qhull.max_facet_width));
+}
+
+/// Facets, width and seconds of one engine, or why there are none.
+std::vector<std::string> qhull_cells(const Repeats& qhull) {
+  if (qhull.is_empty()) return {"-", qhull.failure.empty() ? "-" : qhull.failure, "-"};
+  return {grouped_number(qhull.last().facets), qhull_width(qhull.last()),
+          short_number(qhull.median_seconds())};
+}
+
+std::vector<std::string> ndhull_cells(const Repeats& ndhull) {
+  if (ndhull.is_empty()) return {"-", ndhull.failure.empty() ? "-" : ndhull.failure, "-"};
+  return {grouped_number(ndhull.last().facets), short_number(ndhull.last().max_facet_width),
+          short_number(ndhull.median_seconds())};
+}
+
+std::string speed_ratio(const Repeats& qhull, const Repeats& ndhull) {
+  return ratio(qhull.median_seconds(), ndhull.median_seconds());
+}
+
+constexpr const char* kWidthNote =
+    "Width: Qhull's highest outer plane to its lowest inner plane, in brackets its widest facet; ndhull's "
+    "widest "
+    "facet, certified. Width ratio: ndhull's over each of the two.";
+
+Table comparison(const std::vector<Group>& groups, const char* title, Repeats Group::*ndhull) {
+  Table table{.title = title,
+              .note = kWidthNote,
+              .columns = {"input, options", "Qhull facets", "width (widest)", "seconds", "ndhull facets",
+                          "width", "seconds", "facet ratio", "width ratio", "times faster"},
+              .rows = {}};
+  for (const Group& group : groups) {
+    const Repeats& runs = group.*ndhull;
+    if (runs.is_empty() && runs.failure.empty()) continue;
+    std::vector<std::string> row{group.name};
+    for (std::string& cell : qhull_cells(group.qhull)) row.push_back(std::move(cell));
+    for (std::string& cell : ndhull_cells(runs)) row.push_back(std::move(cell));
+    if (group.qhull.is_empty() || runs.is_empty()) {
+      row.insert(row.end(), {"-", "-", "-"});
+    } else {
+      row.push_back(
+          ratio(static_cast<double>(runs.last().facets), static_cast<double>(group.qhull.last().facets)));
+      row.push_back(width_ratio(runs.last(), group.qhull.last()));
+      row.push_back(speed_ratio(group.qhull, runs));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+// An exact hull that a limit ended took longer than its seconds.
+std::string target_cell(const Repeats& repeats) {
+  if (repeats.is_empty()) return repeats.failure.empty() ? "-" : repeats.failure;
+  return (repeats.done.back().is_complete() ? "" : "> ") + short_number(repeats.median_seconds());
+}
+
+Table beside_exact(const std::vector<Group>& groups) {
+  Table table{.title = "Approximate hulls beside the exact one",
+              .note =
+                  "ndhull's seconds; > where a limit on time or memory ended the hull. Slowest: the slowest "
+                  "approximate hull's seconds over the exact one's.",
+              .columns = {"input", "exact facets"},
+              .rows = {}};
+  std::vector<std::string> options;
+  for (const Group& group : groups) {
+    for (const auto& [text, repeats] : group.targets) {
+      if (std::find(options.begin(), options.end(), text) == options.end()) options.push_back(text);
+    }
+  }
+  table.columns.insert(table.columns.end(), options.begin(), options.end());
+  table.columns.push_back("slowest");
+  for (const Group& group : groups) {
+    if (group.targets.empty()) continue;
+    std::vector<std::string> row{group.name};
+    double exact_seconds = 0.0, slowest = 0.0;
+    for (const auto& [text, repeats] : group.targets) {
+      if (repeats.is_empty()) continue;
+      if (text == "exact") {
+        exact_seconds = repeats.median_seconds();
+        row.push_back((repeats.done.back().is_complete() ? "" : "> ") +
+                      grouped_number(repeats.last().facets));
+      } else {
+        slowest = std::max(slowest, repeats.median_seconds());
+      }
+    }
+    row.resize(2, "-");
+    for (const std::string& text : options) {
+      const auto found = std::find_if(group.targets.begin(), group.targets.end(),
+                                      [&](const auto& target) { return target.first == text; });
+      row.push_back(found == group.targets.end() ? "-" : target_cell(found->second));
+    }
+    row.push_back(exact_seconds > 0.0 ? short_number(slowest / exact_seconds) : "-");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> approximate_tables(const std::vector<RunRecord>& records) {
+  const std::vector<Group> groups = groups_of(records);
+  std::vector<Table> tables{comparison(groups, "The same options", &Group::equal_options),
+                            comparison(groups, "The same number of facets", &Group::equal_facets),
+                            comparison(groups, "The same width", &Group::equal_width), beside_exact(groups)};
+  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  return tables;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,23 @@
+// The tables of `ndhull-bench approximate`, from its records: also those of a file.
+#pragma once
+
+#include <vector>
+
+#include "bench/run_record.h"
+#include "bench/table.h"
+
+namespace ndhull {
+
+/// What a run is for (RunRecord::task). Runs of one group answer one case of the list.
+namespace approximate_task {
+inline constexpr const char* kEqualOptions = "equal options";  ///< both engines
+inline constexpr const char* kEqualFacets = "equal facets";    ///< ndhull with Qhull's number of facets
+inline constexpr const char* kEqualWidth = "equal width";      ///< ndhull with Qhull's widest facet
+inline constexpr const char* kTargets = "targets";             ///< ndhull: exact, and widths in percent
+}  // namespace approximate_task
+
+/// Equal options, equal facets, equal width, approximate beside exact; a table without rows is left out.
+/// Records of other commands are passed over.
+std::vector<Table> approximate_tables(const std::vector<RunRecord>& records);
+
+}  // namespace ndhull
