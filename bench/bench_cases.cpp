@@ -22,20 +22,11 @@ BenchCase sphere_case(const std::string& arguments, double qhull_seconds) {
   return sphere;
 }
 
-// As doubles, because Qhull takes nothing else.
-BenchInput load_data(const std::string& path) {
-  const PointFile file = read_points(path);
-  const PointView view = file.view();
-  PointSet points{view.dimension, std::vector<double>(view.rows * view.dimension), {}};
-  for (std::size_t row = 0; row < view.rows; ++row) view.copy_row(row, points.row(row).data());
-  return {std::move(points), {}};
-}
-
 BenchCase data_case(const std::string& name, const std::string& file, double qhull_seconds) {
   return {.name = name,
           .unit_cube = true,
           .qhull_seconds = qhull_seconds,
-          .load = [file](const std::string& data_folder) { return load_data(data_folder + "/" + file); }};
+          .load = [file](const std::string& data_folder) { return load_points(data_folder + "/" + file); }};
 }
 
 // Of x_ij + x_ji = 1 one is enough: the coordinates with i < j.
@@ -72,6 +63,14 @@ std::vector<BenchCase> all_bench_cases() {
                      return load_linear_ordering(5);
                    }});
   return cases;
+}
+
+BenchInput load_points(const std::string& path) {
+  const PointFile file = read_points(path);
+  const PointView view = file.view();
+  PointSet points{view.dimension, std::vector<double>(view.rows * view.dimension), {}};
+  for (std::size_t row = 0; row < view.rows; ++row) view.copy_row(row, points.row(row).data());
+  return {std::move(points), {}};
 }
 
 BenchCase named_bench_input(const std::string& name) {

@@ -32,6 +32,9 @@ struct BenchCase {
   bool is_slow_for_qhull() const { return qhull_seconds > kSlowSeconds; }
 };
 
+/// The points of a file, as doubles, because Qhull takes nothing else. Throws as read_points.
+BenchInput load_points(const std::string& path);
+
 /// The input called `name`: one of the list below, "abalone, unit cube", or an rbox command.
 BenchCase named_bench_input(const std::string& name);
 

@@ -133,6 +133,12 @@ ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max
   return result;
 }
 
+void limit_address_space(std::uint64_t bytes) {
+  if (bytes == 0) return;
+  const rlimit limit{bytes, bytes};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) fail("setrlimit");
+}
+
 std::uint64_t resident_bytes() {
   unsigned long long total_pages = 0, resident_pages = 0;
   std::FILE* file = std::fopen("/proc/self/statm", "r");

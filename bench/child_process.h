@@ -27,6 +27,10 @@ struct ChildResult {
 /// Not promised  destructors: the child ends without running those of static objects.
 ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds);
 
+/// The largest address space of this process from now on, so that allocations beyond it fail; 0: as it is.
+/// For a child that runs what has no limit of its own.
+void limit_address_space(std::uint64_t bytes);
+
 /// [bytes] Resident memory of this process now; 0 where the system does not say.
 std::uint64_t resident_bytes();
 

@@ -4,6 +4,7 @@
 smoke_test.py PROGRAM SCRATCH. Nothing here is timed.
 """
 
+import csv
 import json
 import pathlib
 import subprocess
@@ -69,6 +70,53 @@ def test_approximate_compares_options_facets_and_width():
     assert "The same options" in alone and "The same width" not in alone, alone
     path.write_text("{}\n", encoding="utf-8")
     run(*words, "--qhull-from", str(path), exit_code=1)
+
+
+SWEEP = ["sweep", "--families", "sphere,cube-corners", "--dimensions", "3,4", "--points", "30,60", "--options",
+         "exact,width 20%", "--engines", "ndhull,qhull", "--rounds", "2", "--warm-up", "0"]  # fmt: skip
+
+
+def test_sweep_can_be_interrupted_and_resumed():
+    path, sheet = SCRATCH / "sweep.jsonl", SCRATCH / "sweep.csv"
+    path.unlink(missing_ok=True)
+    run(*SWEEP, "--json", str(path), "--csv", str(sheet), "--resume", "--quiet")
+    whole = path.read_text(encoding="utf-8").splitlines()
+    # 4 spheres and 2 cubes, twice each: ndhull both, Qhull exact only.
+    assert len(whole) == 6 * 3 * 2, len(whole)
+    with open(sheet, encoding="utf-8", newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    assert len(rows) == 6 * 3
+    cubes = [row["facets"] for row in rows if row["family"] == "cube-corners" and row["options"] == "exact"]
+    assert cubes == ["6", "6", "8", "8"], cubes
+    exact = [row for row in rows if row["family"] == "sphere" and row["options"] == "exact"]
+    for ours, theirs in zip(exact[::2], exact[1::2], strict=True):
+        assert (ours["engine"], theirs["engine"], ours["facets"]) == ("ndhull", "qhull", theirs["facets"])
+        assert int(ours["simplices"]) == int(ours["facets"]) <= int(ours["created_simplices"])
+        assert float(ours["max_facet_width"]) < 1e-12 and int(ours["runs"]) == 2 and ours["seed"] == "1", ours
+        assert abs(float(ours["outer_volume"]) / float(ours["volume"]) - 1) < 1e-9, ours
+        assert float(ours["seconds_min"]) <= float(ours["seconds_median"]) <= float(ours["seconds_max"])
+    assert all(float(row["max_facet_width"]) <= 0.4 for row in rows)
+
+    path.write_text("\n".join(whole[:7]) + "\n" + whole[7][:40], encoding="utf-8")
+    run(*SWEEP, "--json", str(path), "--resume", "--quiet")
+    resumed = path.read_text(encoding="utf-8").splitlines()
+    assert resumed[:7] == whole[:7] and len(resumed) == len(whole)
+    names = ("input", "engine", "options", "round", "facets", "max_facet_width")
+    seen = [[json.loads(line)[name] for name in names] for line in resumed]
+    assert seen == [[json.loads(line)[name] for name in names] for line in whole]
+    run(*SWEEP, "--resume", exit_code=1)
+
+
+def test_sweep_reports_limits_and_goes_on():
+    path = SCRATCH / "limits.jsonl"
+    run("sweep", "--families", "sphere,ball", "--dimensions", "7,8", "--points", "300", "--options", "exact",
+        "--rounds", "1", "--warm-up", "0", "--max-seconds", "0.05", "--json", str(path), "--quiet")  # fmt: skip
+    assert [record["end"] for record in records_of(path)] == ["time_limit", "skipped"] * 2
+    run("sweep", "--families", "sphere", "--dimensions", "6", "--points", "300", "--options", "exact", "--rounds",
+        "1", "--max-memory", "2M", "--json", str(path), "--quiet")  # fmt: skip
+    assert [record["detail"]["status"] for record in records_of(path)] == ["memory_limit"]
+    for words in (["--dimensions", "3-"], ["--options", "sharp"], ["--families", "egg"], ["--points", "many"]):
+        run("sweep", *words, exit_code=1)
 
 
 def test_phases_names_the_phases():
