@@ -12,7 +12,7 @@ namespace ndhull {
 ///
 /// Precondition  dimension >= 2, count > dimension.
 /// Throws  Error kUsage for any other family.
-/// Accuracy  relative error below 1e-4 up to a million points, in 2-d up to 10,000.
+/// Accuracy  relative error below 1e-4 up to a million points, in 2-d up to 3,000.
 /// Source  d of the points span a plane at a signed distance h (either orientation) with density f_d(h); it
 /// holds a
 ///         facet when all others are below it: E = 2 C(n, d) Int f_d(h) F(h)^(n-d) dh, F the distribution of
