@@ -17,6 +17,8 @@ void add_approximate_command(CLI::App& app);
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.
 void add_phases_command(CLI::App& app);
+/// `scaling`: how time and memory grow.
+void add_scaling_command(CLI::App& app);
 /// `sweep`: families, dimensions, numbers of points, options.
 void add_sweep_command(CLI::App& app);
 /// `rays`: the largest facets without the hull.

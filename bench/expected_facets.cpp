@@ -44,8 +44,12 @@ double log_binomial(double n, double k) {
 
 }  // namespace
 
+bool has_expected_facet_count(PointFamily family) {
+  return family == PointFamily::kSphere || family == PointFamily::kBall || family == PointFamily::kGaussian;
+}
+
 double expected_facet_count(PointFamily family, std::size_t dimension, std::size_t count) {
-  if (family != PointFamily::kSphere && family != PointFamily::kBall && family != PointFamily::kGaussian) {
+  if (!has_expected_facet_count(family)) {
     throw Error(ErrorCode::kUsage,
                 "no expected number of facets is known for this family: it is for sphere, ball and gaussian");
   }

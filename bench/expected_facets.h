@@ -7,6 +7,9 @@
 
 namespace ndhull {
 
+/// Sphere, ball and gaussian.
+bool has_expected_facet_count(PointFamily family);
+
 /// Expected number of facets of the hull of `count` independent points: uniform on the sphere, uniform in the
 /// ball, or normal.
 ///

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include "bench/commands.h"
 #include "bench/run_csv.h"
@@ -109,6 +110,8 @@ void throw_if_ndhull_failed(const std::vector<RunRecord>& records) {
     if (record.key.engine == "ndhull" && has_failed) throw EngineFailed();
   }
 }
+
+unsigned available_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 std::vector<std::size_t> parse_range(const std::string& text) {
   std::vector<std::size_t> numbers;

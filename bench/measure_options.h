@@ -33,6 +33,9 @@ Table measurement_table(const std::string& title, const std::vector<RunRecord>& 
 /// Throws EngineFailed when ndhull ended with an error or a signal.
 void throw_if_ndhull_failed(const std::vector<RunRecord>& records);
 
+/// Cores that this process may use, at least 1.
+unsigned available_threads();
+
 /// "3-8" or "3,5,7-9": the numbers. Throws Error kUsage.
 std::vector<std::size_t> parse_range(const std::string& text);
 

@@ -112,6 +112,9 @@ class Measurement {
   }
 
   ChildResult run_once(const PlannedRun& run) const {
+    if (run.work) {
+      return run_in_child([&] { return nlohmann::json(run.work(input_)); }, limits_.max_seconds);
+    }
     const bool unit_cube = plan_.inputs[run.input].unit_cube;
     if (run.engine == "qhull") {
       const std::string words =

@@ -30,6 +30,8 @@ struct PlannedRun {
   OptionSet options;
   unsigned threads = 1;
   unsigned rounds = 1;
+  /// In place of a hull by the engine; empty: none. Runs in a child.
+  std::function<HullRun(const BenchInput&)> work = {};
 };
 
 /// Runs of one input stand together; they take turns, and the order turns around with each round.

@@ -20,4 +20,20 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(log_sum / static_cast<double>(values.size()));
 }
 
+std::optional<double> slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto count = static_cast<double>(x.size());
+  double x_mean = 0.0, y_mean = 0.0;
+  for (std::size_t index = 0; index < x.size(); ++index) {
+    x_mean += x[index] / count;
+    y_mean += y[index] / count;
+  }
+  double products = 0.0, squares = 0.0;
+  for (std::size_t index = 0; index < x.size(); ++index) {
+    products += (x[index] - x_mean) * (y[index] - y_mean);
+    squares += (x[index] - x_mean) * (x[index] - x_mean);
+  }
+  if (!(squares > 0.0)) return std::nullopt;
+  return products / squares;
+}
+
 }  // namespace ndhull

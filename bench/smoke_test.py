@@ -119,6 +119,20 @@ def test_sweep_reports_limits_and_goes_on():
         run("sweep", *words, exit_code=1)
 
 
+def test_scaling_agrees_with_the_expected_numbers_of_facets():
+    path = SCRATCH / "scaling.jsonl"
+    table = run("scaling", "--dimensions", "4", "--points", "400,800,1600", "--fixed-points", "60", "--all-dimensions",
+                "3-6", "--seeds", "1", "--warm-up", "0", "--json", str(path), "--quiet")  # fmt: skip
+    ratios = [record["detail"]["mean_facets"] / record["detail"]["expected_facets"]
+              for record in records_of(path) if record.get("task") == "counts"]  # fmt: skip
+    assert len(ratios) == 12 and all(0.97 < ratio < 1.03 for ratio in ratios), ratios
+    for title in ("Measured and expected", "with the number of points", "with the number of facets"):
+        assert title in table, table
+    # Points on a 4-d sphere: the facets' exponent comes near 1 from above.
+    row = next(line for line in table.splitlines() if line.startswith("ndhull, sphere "))
+    assert all(0.95 < float(word) < 1.15 for word in row.split()[6:8]), row
+
+
 def test_phases_names_the_phases():
     table = run("phases", "--only", "c D8", "--rounds", "1")
     assert all(word in table for word in ("total", "growth", "certify", "merge")), table
