@@ -88,6 +88,7 @@ void CertifiedGrowth::start() {
   work_.points = coordinates_.data();
   work_.measure_phases = true;
   work_.options.seed = options_.seed;
+  work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
   const Clock::time_point begin = Clock::now();

@@ -1,5 +1,8 @@
 #include "approx/hull.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace ndhull {
 namespace {
 
@@ -37,6 +40,18 @@ double Hull::offset(FacetId facet) const {
   const auto n = normal(facet);
   for (std::size_t k = 0; k < dimension; ++k) offset -= n[k] * reference[k];
   return offset;
+}
+
+void Hull::widen(double distance) {
+  for (std::uint32_t row = 0; row < facet_count(); ++row) {
+    // Rounded up: what is claimed must hold to the last bit.
+    const double margin = std::nextafter(distance / input_per_length_unit(FacetId{row}), HUGE_VAL);
+    outer_[row] = std::nextafter(outer_[row] + margin, HUGE_VAL);
+    inner_[row] = std::nextafter(inner_[row] - margin, -HUGE_VAL);
+    max_outer_offset = std::max(max_outer_offset, outer_[row]);
+    min_inner_offset = std::min(min_inner_offset, inner_[row]);
+    max_facet_width = std::max(max_facet_width, outer_[row] - inner_[row]);
+  }
 }
 
 double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.input_per_unit(normal(facet)); }

@@ -51,6 +51,7 @@ struct HullOptions {
   bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
+  double shift = 1e-12;    ///< [ratio] growth's smallest inward shift, see GrowthOptions::shift
   unsigned threads = 0;    ///< for the certificate; 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
@@ -141,6 +142,10 @@ class Hull {
   std::span<const SimplexId> simplices_of(FacetId facet) const;
   FacetId facet_of(SimplexId simplex) const { return layout_.facet_of(simplex); }
   bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
+
+  /// Moves all outer planes out and all inner planes in: then they hold for points that differ from those the
+  /// hull was computed of by up to `distance`. [distance, input units] >= 0
+  void widen(double distance);
 
  private:
   friend class HullBuilder;

@@ -13,6 +13,8 @@ struct EngineFailed : std::runtime_error {
 
 /// `approximate`: approximate hulls of ndhull and Qhull.
 void add_approximate_command(CLI::App& app);
+/// `joggle`: how often joggled input has a precision problem.
+void add_joggle_command(CLI::App& app);
 /// `peers`: ndhull and Qhull side by side.
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.

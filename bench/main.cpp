@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", ndhull::machine_line(ndhull::describe_machine()));
   app.require_subcommand(1);
   // One line a command; the order is that of --help.
+  ndhull::add_joggle_command(app);
   ndhull::add_peers_command(app);
   ndhull::add_approximate_command(app);
   ndhull::add_phases_command(app);
