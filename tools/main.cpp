@@ -18,6 +18,7 @@
 #include "tools/intersect_command.h"
 #include "tools/largest_command.h"
 #include "tools/point_set_commands.h"
+#include "tools/qhull_command.h"
 #include "tools/verify_command.h"
 #include "tools/view_command.h"
 
@@ -76,6 +77,8 @@ int run(const std::vector<std::string>& arguments) {
   ndhull::add_extreme_command(app, exit_code);
   ndhull::add_generate_command(app);
   ndhull::add_rbox_command(app);
+  ndhull::add_qhull_command(app, exit_code);
+  ndhull::add_qhalf_command(app, exit_code);
   ndhull::add_verify_command(app, exit_code);
   ndhull::add_view_command(app, exit_code);
   try {

@@ -1,4 +1,5 @@
-// Qhull formats with one line a facet: n Fo Fi Fa FC Fv Fn i o.
+// Qhull formats with one line a facet: n Fo Fi Fa FC Fm FI Fv Fn i o Ft.
+#include <algorithm>
 #include <vector>
 
 #include "tools/qhull_formats.h"
@@ -6,17 +7,18 @@
 namespace ndhull {
 namespace {
 
-void print_row(OutputFile& file, const std::vector<double>& numbers) {
-  for (const double number : numbers) file.print("{:6.16g} ", number);
-  file.write("\n");
-}
-
 void print_ids(OutputFile& file, std::span<const PointId> ids) {
   for (const PointId id : ids) file.print("{} ", id.value);
   file.write("\n");
 }
 
-/// Mean of the facet's vertices, moved along the normal into its plane.
+}  // namespace
+
+void print_row(OutputFile& file, std::span<const double> numbers) {
+  for (const double number : numbers) file.print("{:6.16g} ", number);
+  file.write("\n");
+}
+
 std::vector<double> centrum(const QhullPrint& print, FacetId facet) {
   const std::span<const PointId> vertices = print.hull.vertices_of(facet);
   const std::span<const double> normal = print.hull.normal(facet);
@@ -33,11 +35,13 @@ std::vector<double> centrum(const QhullPrint& print, FacetId facet) {
   return mean;
 }
 
-}  // namespace
-
 void write_planes_format(OutputFile& file, std::string_view format, const QhullPrint& print) {
   const Hull& hull = print.hull;
-  file.print("{}\n{}\n", hull.dimension + 1, print.facets.size());
+  if (print.writes_cdd) {
+    file.print("{}\nbegin\n    {} {} real\n", print.invocation, print.facets.size(), hull.dimension + 1);
+  } else {
+    file.print("{}\n{}\n", hull.dimension + 1, print.facets.size());
+  }
   std::vector<double> row(hull.dimension + 1);
   for (const FacetId facet : print.facets) {
     const std::span<const double> normal = hull.normal(facet);
@@ -47,8 +51,28 @@ void write_planes_format(OutputFile& file, std::string_view format, const QhullP
     if (format == "Fo") shift = hull.outer_offset(facet) * hull.input_per_length_unit(facet);
     if (format == "Fi") shift = hull.inner_offset(facet) * hull.input_per_length_unit(facet);
     row[hull.dimension] = hull.offset(facet) - shift;
+    if (print.writes_cdd) {
+      // n.x + b <= 0 is -b - n.x >= 0, the constant first.
+      std::rotate(row.begin(), row.end() - 1, row.end());
+      for (double& number : row) number = 0.0 - number;
+    }
     print_row(file, row);
   }
+  if (print.writes_cdd) file.write("end\n");
+}
+
+void write_merge_counts(OutputFile& file, const QhullPrint& print) {
+  // Qhull's counters end here.
+  constexpr std::size_t kLargestCount = 511;
+  file.print("{}\n", print.facets.size());
+  for (const FacetId facet : print.facets) {
+    file.print("{}\n", std::min(print.hull.simplices_of(facet).size() - 1, kLargestCount));
+  }
+}
+
+void write_facet_ids(OutputFile& file, const QhullPrint& print) {
+  file.print("{}\n", print.facets.size());
+  for (const FacetId facet : print.facets) file.print("{}\n", facet.value);
 }
 
 void write_facet_areas(OutputFile& file, const QhullPrint& print) {
@@ -102,20 +126,55 @@ void write_facet_simplices(OutputFile& file, const QhullPrint& print) {
   }
 }
 
-void write_off(OutputFile& file, const QhullPrint& print) {
-  const Hull& hull = print.hull;
-  std::size_t neighbour_count = 0;
-  for (const FacetId facet : print.facets) neighbour_count += hull.neighbours_of(facet).size();
-  file.print("{}\n{} {} {}\n", hull.dimension, hull.point_count, print.facets.size(), neighbour_count / 2);
-  std::vector<double> row(hull.dimension);
-  for (std::size_t point = 0; point < hull.point_count; ++point) {
+namespace {
+
+void print_points(OutputFile& file, const QhullPrint& print) {
+  std::vector<double> row(print.hull.dimension);
+  for (std::size_t point = 0; point < print.hull.point_count; ++point) {
     print.points.copy_row(point, row.data());
     print_row(file, row);
   }
+}
+
+std::size_t ridge_count(const QhullPrint& print) {
+  std::size_t neighbours = 0;
+  for (const FacetId facet : print.facets) neighbours += print.hull.neighbours_of(facet).size();
+  return neighbours / 2;
+}
+
+void print_polygon(OutputFile& file, std::span<const PointId> vertices) {
+  file.print("{} ", vertices.size());
+  print_ids(file, vertices);
+}
+
+}  // namespace
+
+void write_off(OutputFile& file, const QhullPrint& print) {
+  const Hull& hull = print.hull;
+  file.print("{}\n{} {} {}\n", hull.dimension, hull.point_count, print.facets.size(), ridge_count(print));
+  print_points(file, print);
+  for (const FacetId facet : print.facets) print_polygon(file, print.order.vertices(facet));
+}
+
+void write_triangulated_off(OutputFile& file, const QhullPrint& print) {
+  const Hull& hull = print.hull;
+  std::vector<FacetId> merged;
+  std::size_t count = 0;
   for (const FacetId facet : print.facets) {
-    const std::vector<PointId> vertices = print.order.vertices(facet);
-    file.print("{} ", vertices.size());
-    print_ids(file, vertices);
+    if (!hull.is_simplicial(facet)) merged.push_back(facet);
+    count += hull.is_simplicial(facet) ? 1 : print.order.ridge_count(facet);
+  }
+  file.print("{}\n{} {} {}\n", hull.dimension, hull.point_count + merged.size(), count, ridge_count(print));
+  print_points(file, print);
+  for (const FacetId facet : merged) print_row(file, centrum(print, facet));
+  auto inside_point = static_cast<std::uint32_t>(hull.point_count);
+  for (const FacetId facet : print.facets) {
+    if (hull.is_simplicial(facet)) {
+      print_polygon(file, print.order.vertices(facet));
+      continue;
+    }
+    print.order.for_each_cone(facet, PointId{inside_point++},
+                              [&file](std::span<const PointId> cone) { print_polygon(file, cone); });
   }
 }
 

@@ -15,10 +15,11 @@ using Writer = void (*)(OutputFile&, const QhullPrint&);
 
 struct Format {
   std::string_view name;
-  Writer write;  // null: part of the summary
+  Writer write;            // null: part of the summary
+  bool is_of_hull = true;  // ndhull hull has it, else ndhull qhull only
 };
 
-constexpr std::array<Format, 17> kFormats{{
+constexpr std::array<Format, 23> kFormats{{
     {"n", [](OutputFile& file, const QhullPrint& print) { write_planes_format(file, "n", print); }},
     {"Fo", [](OutputFile& file, const QhullPrint& print) { write_planes_format(file, "Fo", print); }},
     {"Fi", [](OutputFile& file, const QhullPrint& print) { write_planes_format(file, "Fi", print); }},
@@ -36,11 +37,17 @@ constexpr std::array<Format, 17> kFormats{{
     {"Fs", write_statistics},
     {"FC", write_facet_centrums},
     {"s", nullptr},
+    {"Fc", write_attached_points, false},
+    {"Ft", write_triangulated_off, false},
+    {"Fm", write_merge_counts, false},
+    {"FI", write_facet_ids, false},
+    {"FP", write_nearest_vertices, false},
+    {"FQ", [](OutputFile& file, const QhullPrint& print) { file.print("{}\n", print.invocation); }, false},
 }};
 
-const Format& find_format(std::string_view name) {
+const Format& find_format(std::string_view name, bool must_be_of_hull) {
   for (const Format& format : kFormats) {
-    if (format.name == name) return format;
+    if (format.name == name && (format.is_of_hull || !must_be_of_hull)) return format;
   }
   throw Error(ErrorCode::kUsage,
               fmt::format("format: found \"{}\", expected some of n Fo Fi FV Fx Fv Fn FN i o p Fa "
@@ -104,14 +111,14 @@ std::vector<std::string> split_qhull_formats(std::string_view list) {
   while (!list.empty()) {
     const std::size_t length = list.find_first_of(", ");
     const std::string_view name = list.substr(0, length);
-    if (!name.empty()) formats.emplace_back(find_format(name).name);
+    if (!name.empty()) formats.emplace_back(find_format(name, true).name);
     list.remove_prefix(length == std::string_view::npos ? list.size() : length + 1);
   }
   return formats;
 }
 
 void write_qhull_format(OutputFile& file, std::string_view format, const QhullPrint& print) {
-  const Format& found = find_format(format);
+  const Format& found = find_format(format, false);
   if (found.write != nullptr) found.write(file, print);
 }
 
@@ -148,9 +155,9 @@ void write_statistics(OutputFile& file, const QhullPrint& print) {
       static_cast<std::size_t>(std::count_if(print.facets.begin(), print.facets.end(),
                                              [&hull](FacetId facet) { return hull.is_simplicial(facet); }));
   const InputOffsets offsets = input_offsets(hull);
-  // No coplanar points are kept, no vertices deleted, no facets triangulated: three zeros.
-  file.print("10 {} {} {} {} {} {} 0 {} 0 0\n", hull.dimension, hull.point_count, hull.vertices.size(),
-             hull.facet_count(), print.vertices.size(), print.facets.size(),
+  // No vertices are deleted, no facets triangulated: two zeros.
+  file.print("10 {} {} {} {} {} {} {} {} 0 0\n", hull.dimension, hull.point_count, hull.vertices.size(),
+             hull.facet_count(), print.vertices.size(), print.facets.size(), print.attached.size(),
              print.facets.size() - simplicial);
   file.print("2 {:6.16g} {:6.16g}\n", offsets.outer, offsets.inner);
 }

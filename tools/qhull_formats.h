@@ -11,6 +11,7 @@
 
 #include "approx/hull.h"
 #include "core/points.h"
+#include "tools/attached_points.h"
 #include "tools/facet_order.h"
 #include "tools/output_file.h"
 
@@ -28,14 +29,20 @@ struct QhullPrint {
   std::vector<std::int64_t> label;  ///< of every facet: its position in `facets`, or -(id + 1)
   std::vector<PointId> vertices;    ///< of the facets to print, ascending
   FacetOrder order;
+
+  // What Qhull's own command line may ask for besides (tools/qhull_run.cpp).
+  std::vector<AttachedPoint> attached;  ///< points of the facets to print that are no vertices (Qc, Qi)
+  std::string invocation;               ///< "rbox ... | qhull ...": what FQ prints, and FD before its planes
+  bool writes_cdd = false;              ///< FD: n, Fo and Fi as cdd reads them
 };
 
-/// Splits "n,Fx o" at commas and blanks.
+/// Splits the list of `ndhull hull --format`, like "n,Fx o", at commas and blanks.
 /// Throws Error kUsage for a format that is not one of
 /// n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s.
 std::vector<std::string> split_qhull_formats(std::string_view list);
 
-/// Writes one format to `file`. s and FA belong to the summary and write nothing here.
+/// Writes one format to `file`: of those, or Fc Ft Fm FI FP FQ. s and FA belong to the summary and write
+/// nothing here.
 ///
 /// Lengths    everything in input units; outer and inner offsets are converted when the hull was measured
 ///            in the unit cube.
@@ -51,6 +58,11 @@ void write_qhull_formats(OutputFile& file, std::span<const std::string> formats,
 /// The summary: one fact a line; `with_area` adds area and volume.
 std::string qhull_summary(const QhullPrint& print, bool with_area);
 
+/// Mean of the facet's vertices, moved along the normal into its plane.
+std::vector<double> centrum(const QhullPrint& print, FacetId facet);
+/// Numbers as "%6.16g ", and a newline.
+void print_row(OutputFile& file, std::span<const double> numbers);
+
 // The formats by what they are tables of.
 void write_planes_format(OutputFile& file, std::string_view format, const QhullPrint& print);  // n Fo Fi
 void write_facet_areas(OutputFile& file, const QhullPrint& print);                             // Fa
@@ -59,6 +71,11 @@ void write_facet_vertices(OutputFile& file, const QhullPrint& print);           
 void write_facet_neighbours(OutputFile& file, const QhullPrint& print);                        // Fn
 void write_facet_simplices(OutputFile& file, const QhullPrint& print);                         // i
 void write_off(OutputFile& file, const QhullPrint& print);                                     // o
+void write_triangulated_off(OutputFile& file, const QhullPrint& print);                        // Ft
+void write_merge_counts(OutputFile& file, const QhullPrint& print);                            // Fm
+void write_facet_ids(OutputFile& file, const QhullPrint& print);                               // FI
+void write_attached_points(OutputFile& file, const QhullPrint& print);                         // Fc
+void write_nearest_vertices(OutputFile& file, const QhullPrint& print);                        // FP
 void write_size(OutputFile& file, const QhullPrint& print);                                    // FS
 void write_statistics(OutputFile& file, const QhullPrint& print);                              // Fs
 void write_mean_vertex(OutputFile& file, const QhullPrint& print);                             // FV

@@ -1,5 +1,6 @@
-// Qhull formats about points: FV Fx FN p.
+// Qhull formats about points: FV Fx FN p Fc FP.
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tools/qhull_formats.h"
@@ -32,10 +33,47 @@ void write_extreme_points(OutputFile& file, const QhullPrint& print) {
 
 void write_vertex_coordinates(OutputFile& file, const QhullPrint& print) {
   const std::size_t dimension = print.hull.dimension;
-  file.print("{}\n{}\n", dimension, print.vertices.size());
-  for (const PointId vertex : print.vertices) {
-    for (std::size_t k = 0; k < dimension; ++k) file.print("{:6.16g} ", print.points.at(vertex.value, k));
+  std::vector<PointId> ids = print.vertices;
+  for (const AttachedPoint& attached : print.attached) ids.push_back(attached.point);
+  std::sort(ids.begin(), ids.end());
+  file.print("{}\n{}\n", dimension, ids.size());
+  std::vector<double> row(dimension);
+  for (const PointId id : ids) {
+    print.points.copy_row(id.value, row.data());
+    print_row(file, row);
+  }
+}
+
+void write_attached_points(OutputFile& file, const QhullPrint& print) {
+  std::vector<std::vector<PointId>> points_of(print.facets.size());
+  for (const AttachedPoint& attached : print.attached) {
+    points_of[static_cast<std::size_t>(print.label[attached.facet.value])].push_back(attached.point);
+  }
+  file.print("{}\n", print.facets.size());
+  for (const std::vector<PointId>& points : points_of) {
+    file.print("{}", points.size());
+    for (const PointId point : points) file.print(" {}", point.value);
     file.write("\n");
+  }
+}
+
+void write_nearest_vertices(OutputFile& file, const QhullPrint& print) {
+  file.print("{}\n", print.attached.size());
+  for (const AttachedPoint& attached : print.attached) {
+    PointId nearest;
+    double least_sq = HUGE_VAL;
+    for (const PointId vertex : print.hull.vertices_of(attached.facet)) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < print.hull.dimension; ++k) {
+        const double step = print.points.at(attached.point.value, k) - print.points.at(vertex.value, k);
+        sum += step * step;
+      }
+      if (sum >= least_sq) continue;
+      least_sq = sum;
+      nearest = vertex;
+    }
+    file.print("{} {} {} {:6.16g} \n", nearest.value, attached.point.value, attached.facet.value,
+               std::sqrt(least_sq));
   }
 }
 
@@ -54,9 +92,17 @@ void write_vertex_facets(OutputFile& file, const QhullPrint& print) {
     for (const PointId vertex : hull.vertices_of(facet_id(row))) facets[next[vertex.value]++] = facet_id(row);
   }
 
+  std::vector<FacetId> facet_of_attached(print.attached.empty() ? 0 : hull.point_count);
+  for (const AttachedPoint& attached : print.attached) {
+    facet_of_attached[attached.point.value] = attached.facet;
+  }
   file.print("{}\n", hull.point_count);
   for (std::size_t point = 0; point < hull.point_count; ++point) {
     const PointId id{static_cast<std::uint32_t>(point)};
+    if (!facet_of_attached.empty() && facet_of_attached[point].valid()) {
+      file.print("1 {}\n", print.label[facet_of_attached[point].value]);
+      continue;
+    }
     if (!std::binary_search(print.vertices.begin(), print.vertices.end(), id)) {
       file.write("0\n");
       continue;
