@@ -19,6 +19,8 @@ void add_joggle_command(CLI::App& app);
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.
 void add_phases_command(CLI::App& app);
+/// `report`: results as a page.
+void add_report_command(CLI::App& app);
 /// `scaling`: how time and memory grow.
 void add_scaling_command(CLI::App& app);
 /// `sweep`: families, dimensions, numbers of points, options.

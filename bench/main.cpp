@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   ndhull::add_rays_command(app);
   ndhull::add_scaling_command(app);
   ndhull::add_sweep_command(app);
+  ndhull::add_report_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -48,6 +48,7 @@ void to_json(nlohmann::json& json, const RunRecord& record) {
   json["points"] = record.points;
   json["end"] = record.end;
   json["peak_bytes"] = record.peak_bytes;
+  if (!record.machine.is_null()) json["machine"] = record.machine;
 }
 
 void from_json(const nlohmann::json& json, RunRecord& record) {
@@ -62,6 +63,7 @@ void from_json(const nlohmann::json& json, RunRecord& record) {
   json.at("end").get_to(record.end);
   json.at("peak_bytes").get_to(record.peak_bytes);
   record.points = json.at("points");
+  record.machine = json.value("machine", nlohmann::json());
   if (record.is_done()) {
     json.get_to(record.run);
   } else {
@@ -125,7 +127,7 @@ RecordFile::RecordFile(const std::string& path, bool append) : path_(path), mach
 
 void RecordFile::write(nlohmann::json line) {
   if (path_.empty()) return;
-  line["machine"] = machine_;
+  if (!line.contains("machine")) line["machine"] = machine_;
   if (!(file_ << line.dump() << std::endl)) throw Error(ErrorCode::kFileWrite, path_ + ": cannot be written");
 }
 

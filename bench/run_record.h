@@ -35,7 +35,8 @@ struct RunRecord {
   std::string end;        ///< done, failed, crashed, time_limit
   std::string reason;     ///< not for done
   std::uint64_t peak_bytes = 0;
-  HullRun run;  ///< for done
+  HullRun run;                       ///< for done
+  nlohmann::json machine = nullptr;  ///< read from a file: where it was measured
 
   bool is_done() const { return end == "done"; }
   /// What the engine says itself of how it ended: "complete", a limit's name; "" of engines that do not say.

@@ -1,0 +1,165 @@
+#include "bench/report_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "bench/approximate_tables.h"
+#include "bench/dimension_charts.h"
+#include "bench/measure_options.h"
+#include "bench/run_csv.h"
+#include "bench/scaling_tables.h"
+
+namespace ndhull {
+namespace {
+
+// Below, what every process needs hides what facets need.
+constexpr double kManySimplices = 10000.0;
+
+std::optional<double> bytes_figure(const DimensionRun& run) {
+  const HullRun& hull = run.repeats.last();
+  auto simplices = static_cast<double>(hull.facets);
+  if (hull.detail.is_object()) simplices = hull.detail.value("simplices", simplices);
+  if (run.key.options != "exact" || simplices < kManySimplices) return std::nullopt;
+  return bytes_per_facet(run.repeats.done.back());
+}
+
+/// Facets and widths that were reached on one input.
+struct Trade {
+  std::string input;
+  std::size_t dimension = 0;
+  std::map<std::string, std::vector<std::pair<double, double>>> lines;  // engine and kind of option
+};
+
+constexpr const char* kQhullLine = "Qhull, W and C";
+constexpr const char* kTargetLine = "ndhull, targets";
+
+// A line joins what differs by one number: "width 5%" and "width 10%".
+std::string kind_of(const RunKey& key) {
+  if (key.engine == "qhull") return kQhullLine;
+  const std::string word = key.options.substr(0, key.options.find(' '));
+  return word == "width" || word == "facets" ? kTargetLine : "ndhull, W and C";
+}
+
+std::vector<Trade> trades_of(const std::vector<RunRecord>& records) {
+  std::vector<Trade> trades;
+  for (const auto& [record, repeats] : measurements_of(records)) {
+    if (repeats.is_empty() || record.key.options == "exact" || !repeats.done.back().is_complete()) continue;
+    auto trade = std::find_if(trades.begin(), trades.end(),
+                              [&](const Trade& candidate) { return candidate.input == record.key.input; });
+    if (trade == trades.end()) {
+      trades.push_back({record.key.input, record.points.at("dimension").get<std::size_t>(), {}});
+      trade = trades.end() - 1;
+    }
+    const HullRun& run = repeats.last();
+    trade->lines[kind_of(record.key)].emplace_back(run.max_facet_width, static_cast<double>(run.facets));
+  }
+  return trades;
+}
+
+// Those with most to see: both engines, many options, high dimension.
+std::vector<Chart> trade_charts(const std::vector<RunRecord>& records) {
+  constexpr std::size_t kMostCharts = 12, kFewestPoints = 3;
+  std::vector<Trade> trades = trades_of(records);
+  const auto point_count = [](const Trade& trade) {
+    std::size_t points = 0;
+    for (const auto& [name, line] : trade.lines) points += line.size();
+    return points;
+  };
+  std::erase_if(trades, [&](const Trade& trade) { return point_count(trade) < kFewestPoints; });
+  std::stable_sort(trades.begin(), trades.end(), [&](const Trade& a, const Trade& b) {
+    return std::tuple(a.lines.size(), point_count(a), a.dimension) >
+           std::tuple(b.lines.size(), point_count(b), b.dimension);
+  });
+  if (trades.size() > kMostCharts) trades.resize(kMostCharts);
+  std::vector<Chart> charts;
+  for (Trade& trade : trades) {
+    Chart& chart = charts.emplace_back();
+    chart.title = trade.input;
+    chart.x_label = "width of the widest facet [length of the points]";
+    chart.y_label = "facets";
+    chart.log_x = chart.log_y = true;
+    for (auto& [name, line] : trade.lines) {
+      std::sort(line.begin(), line.end());
+      chart.series.push_back({name, line, name == kQhullLine,
+                              name == kQhullLine    ? 1U
+                              : name == kTargetLine ? 0U
+                                                    : 2U});
+    }
+  }
+  return charts;
+}
+
+template <class AnyChart>
+void add_charts(std::vector<AnyChart> charts, ReportSection& section) {
+  for (AnyChart& chart : charts) section.charts.emplace_back(std::move(chart));
+}
+
+}  // namespace
+
+std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records) {
+  const std::vector<std::vector<DimensionRun>> families = runs_by_family(records);
+  std::vector<ReportSection> sections;
+
+  ReportSection& runtime = sections.emplace_back();
+  runtime.title = "Runtime against dimension";
+  runtime.text = "Median seconds of one thread; ndhull's include the certificate, Qhull's its outer planes.";
+  add_charts(charts_over_dimension(
+                 families, "seconds",
+                 [](const DimensionRun& run) { return std::optional(run.repeats.median_seconds()); }),
+             runtime);
+  runtime.tables.push_back(ratio_table(families));
+
+  ReportSection& width = sections.emplace_back();
+  width.title = "Facet width against dimension";
+  width.text =
+      "The widest facet, outer plane minus inner plane. Of ndhull the number is certified; exact hulls are "
+      "at roundoff.";
+  add_charts(charts_over_dimension(families, "width of the widest facet [length of the points]",
+                                   [](const DimensionRun& run) {
+                                     const bool is_exact = run.key.options == "exact";
+                                     return is_exact ? std::nullopt
+                                                     : std::optional(run.repeats.last().max_facet_width);
+                                   }),
+             width);
+  add_charts(exact_width_charts(families), width);
+
+  ReportSection& trade = sections.emplace_back();
+  trade.title = "Facets against width";
+  trade.text =
+      "What each engine gives: lower and further left is better. Targets: a width, or a number of facets, "
+      "was asked for.";
+  add_charts(trade_charts(records), trade);
+  trade.tables = approximate_tables(records);
+
+  ReportSection& memory = sections.emplace_back();
+  memory.title = "Memory";
+  memory.text =
+      "Peak memory beyond the points, for each simplex of exact hulls with 10,000 simplices or more.";
+  add_charts(charts_over_dimension(families, "memory of a simplex [bytes]", bytes_figure), memory);
+
+  ReportSection& phases = sections.emplace_back();
+  phases.title = "Phases";
+  phases.text = "Where ndhull's time goes. Rest: the frame, and starting the process' first call.";
+  add_charts(phase_charts(families), phases);
+
+  ReportSection& growth = sections.emplace_back();
+  growth.title = "Growth";
+  growth.tables = scaling_tables(records);
+
+  ReportSection& all = sections.emplace_back();
+  all.title = "All measurements";
+  if (!records.empty()) all.tables.push_back(measurement_table("Runs", records));
+
+  for (ReportSection& section : sections) {
+    std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
+  }
+  std::erase_if(sections, [](const ReportSection& section) {
+    return section.charts.empty() && section.tables.empty();
+  });
+  return sections;
+}
+
+}  // namespace ndhull
