@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "approx/frame_planes.h"
+#include "core/blocks.h"
 #include "core/highest_dots.h"
 #include "core/plane_kernels.h"
 
@@ -52,6 +53,11 @@ void drop_rounding(SimplicialComplex& complex, const FacetLayout& layout) {
       if (std::abs(plane[k]) < kRounding * largest) plane[k] = 0.0;
   }
 }
+
+/// What is summed up over the facets of one block.
+struct FacetSums {
+  double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0, area = 0.0;
+};
 
 /// Areas of the merged facets: of the projection of their simplices onto their plane.
 void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
@@ -144,38 +150,53 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
 
   const double volume_per_determinant =
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
-  for (std::size_t facet = 0; facet < count; ++facet) {
-    const std::span<const double> normal = normals.subspan(facet * dimension, dimension);
-    double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
-    double centre = 0.0;
-    for (std::size_t k = 0; k < dimension; ++k) centre += normal[k] * (frame.centre[k] - points.reference[k]);
-    // The plane midway of a very wide facet may pass below the interior point; the supporting one never does.
-    if (-offset <= centre) offset = -std::max(high[facet], highest[facet]);
-    const double height = -offset - centre;
-    double size = std::abs(offset), size_input = std::abs(offset);
-    for (std::size_t k = 0; k < dimension; ++k) {
-      size += std::abs(normal[k]) * points.largest[k];
-      size_input += std::abs(normal[k]) * points.largest_input[k];
-    }
-    // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
-    const double error = sum_error(dimension + 3, size);
-    const double per_unit = 1.0 / unit.input_per_unit(normal);
-    const double outer_explicit = std::max(0.0, highest[facet] + offset + error);
-    const double outer = ((1.0 + covered_gauge) * outer_explicit + covered_gauge * height) * per_unit;
-    const double inner = std::min(0.0, low[facet] + offset - error) * per_unit;
-    table.offsets[facet] = offset;
-    table.outer[facet] = outer;
-    table.inner[facet] = inner;
-    table.max_outer = std::max(table.max_outer, outer);
-    table.min_inner = std::min(table.min_inner, inner);
-    table.max_width = std::max(table.max_width, outer - inner);
-    table.roundoff = std::max(table.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
+  // Sums are put together in the order of the blocks.
+  std::vector<FacetSums> parts((count + kFacetsAtATime - 1) / kFacetsAtATime);
+  for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    FacetSums& part = parts[begin / kFacetsAtATime];
+    for (std::size_t facet = begin; facet < end; ++facet) {
+      const std::span<const double> normal = normals.subspan(facet * dimension, dimension);
+      double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
+      double centre = 0.0;
+      for (std::size_t k = 0; k < dimension; ++k)
+        centre += normal[k] * (frame.centre[k] - points.reference[k]);
+      // The plane midway of a very wide facet may pass below the interior point; the supporting one never
+      // does.
+      if (-offset <= centre) offset = -std::max(high[facet], highest[facet]);
+      const double height = -offset - centre;
+      double size = std::abs(offset), size_input = std::abs(offset);
+      for (std::size_t k = 0; k < dimension; ++k) {
+        size += std::abs(normal[k]) * points.largest[k];
+        size_input += std::abs(normal[k]) * points.largest_input[k];
+      }
+      // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
+      const double error = sum_error(dimension + 3, size);
+      const double per_unit = 1.0 / unit.input_per_unit(normal);
+      const double outer_explicit = std::max(0.0, highest[facet] + offset + error);
+      const double outer = ((1.0 + covered_gauge) * outer_explicit + covered_gauge * height) * per_unit;
+      const double inner = std::min(0.0, low[facet] + offset - error) * per_unit;
+      table.offsets[facet] = offset;
+      table.outer[facet] = outer;
+      table.inner[facet] = inner;
+      part.max_outer = std::max(part.max_outer, outer);
+      part.min_inner = std::min(part.min_inner, inner);
+      part.max_width = std::max(part.max_width, outer - inner);
+      part.roundoff = std::max(part.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
 
-    const double cone = determinants[facet] * volume_per_determinant;
-    table.volume += cone;
-    if (facet >= layout.simplicial) continue;
-    table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
-    table.area += table.areas[facet];
+      const double cone = determinants[facet] * volume_per_determinant;
+      part.volume += cone;
+      if (facet >= layout.simplicial) continue;
+      table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
+      part.area += table.areas[facet];
+    }
+  });
+  for (const FacetSums& part : parts) {
+    table.max_outer = std::max(table.max_outer, part.max_outer);
+    table.min_inner = std::min(table.min_inner, part.min_inner);
+    table.max_width = std::max(table.max_width, part.max_width);
+    table.roundoff = std::max(table.roundoff, part.roundoff);
+    table.volume += part.volume;
+    table.area += part.area;
   }
   const double area_per_determinant = static_cast<double>(frame.rank) * volume_per_determinant;
   project_areas(layout, frame, normals, area_per_determinant, table.areas);

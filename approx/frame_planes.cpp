@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/blocks.h"
+
 namespace ndhull {
 namespace {
 
@@ -34,9 +36,9 @@ void map_normals(const Frame& frame, const double* planes, std::size_t count, do
     to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
   }
   constexpr std::size_t kBlock = 256;
-  RowMatrix block;
-  for (std::size_t begin = 0; begin < count; begin += kBlock) {
-    const std::size_t used = std::min(kBlock, count - begin);
+  for_each_block(count, kBlock, [&](std::size_t begin, std::size_t end) {
+    const std::size_t used = end - begin;
+    RowMatrix block;
     const Eigen::Map<const RowMatrix> in(planes + begin * rank, static_cast<Eigen::Index>(used),
                                          static_cast<Eigen::Index>(rank));
     if (frame.is_diagonal && rank == dimension) {
@@ -54,7 +56,7 @@ void map_normals(const Frame& frame, const double* planes, std::size_t count, do
       if (lengths != nullptr) lengths[begin + row] = largest * length;
       std::copy_n(block.row(at).data(), dimension, out + (begin + row) * dimension);
     }
-  }
+  });
 }
 
 std::vector<double> find_subspace_equations(const Frame& frame) {

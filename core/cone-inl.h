@@ -18,27 +18,27 @@ namespace HWY_NAMESPACE {
 // replaced by the apex. The visible simplex's neighbour entry is overwritten with the new row (marked), which
 // is what the matching reads; `undo_cone` puts it back.
 template <std::size_t D>
-void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
+void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t begin, std::size_t end) {
   alignas(64) double apex[D];
   for (std::size_t k = 0; k < D; ++k) apex[k] = point(apex_id)[k];
   constexpr std::size_t kAhead = 8;
-  std::size_t free_count = work_.free_count;
-  std::size_t row_count = work_.complex.row_count;
-  for (std::size_t i = 0; i < horizon_count_; ++i) {
-    if (i + kAhead < horizon_count_) {
+  const std::size_t free_count = work_.free_count, row_count = work_.complex.row_count;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i + kAhead < end) {
       const HorizonRidge& later = horizon_[i + kAhead];
       __builtin_prefetch(plane(later.hidden));
       __builtin_prefetch(plane(visible_[later.visible_index]));
       __builtin_prefetch(vertices(visible_[later.visible_index]), 1);
-      if (free_count > kAhead) {
-        __builtin_prefetch(plane(work_.free_rows[free_count - kAhead]), 1);
-        __builtin_prefetch(vertices(work_.free_rows[free_count - kAhead]), 1);
+      if (i + kAhead < free_count) {
+        __builtin_prefetch(plane(work_.free_rows[free_count - kAhead - 1 - i]), 1);
+        __builtin_prefetch(vertices(work_.free_rows[free_count - kAhead - 1 - i]), 1);
       }
     }
     const HorizonRidge ridge = horizon_[i];
     const std::uint32_t visible = visible_[ridge.visible_index];
-    const std::uint32_t row =
-        free_count > 0 ? work_.free_rows[--free_count] : static_cast<std::uint32_t>(row_count++);
+    // Rows freed last first, then rows never used.
+    const std::uint32_t row = i < free_count ? work_.free_rows[free_count - 1 - i]
+                                             : static_cast<std::uint32_t>(row_count + (i - free_count));
     new_rows_[i] = row;
 
     const double* HWY_RESTRICT above = plane(visible);
@@ -59,24 +59,37 @@ void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
     state_[row] = SimplexState::kLive;
     neighbours(visible)[ridge.slot] = row | kNewBit;
   }
+}
+
+template <std::size_t D>
+void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
+  for_ridges([&](std::size_t begin, std::size_t end) { make_ridges(apex_id, shift, begin, end); });
   new_count_ = horizon_count_;
-  work_.free_count = free_count;
-  work_.complex.row_count = row_count;
+  const std::size_t reused = std::min(work_.free_count, new_count_);
+  work_.free_count -= reused;
+  work_.complex.row_count += new_count_ - reused;
 }
 
 // For the new simplex over the ridge opposite slot k of f, the neighbour opposite its vertex v (slot m) lies
 // across the subridge S = f minus slots k and m. Turn around S: leave f through m; in each visible simplex
 // entered, leave opposite the vertex that the previous one shared besides S; stop at the first ridge that
-// has a new simplex over it. Both neighbour entries are set at once.
+// has a new simplex over it. Both neighbour entries are set at once. Turning back from the partner leads here
+// again, so two threads that meet a pair from its two sides set the same.
 template <std::size_t D>
 void Grower<D>::match_cone() {
-  for (std::size_t i = 0; i < new_count_; ++i) {
+  for_ridges([&](std::size_t begin, std::size_t end) { match_ridges(begin, end); });
+}
+
+template <std::size_t D>
+void Grower<D>::match_ridges(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t row = new_rows_[i];
     const HorizonRidge ridge = horizon_[i];
     const std::uint32_t first = visible_[ridge.visible_index];
-    std::uint32_t* HWY_RESTRICT around = neighbours(row);
+    std::uint32_t* around = neighbours(row);
     for (std::uint32_t m = 0; m < D; ++m) {
-      if (around[m] != kNoRow) continue;  // the ridge to the horizon, or matched from the other side
+      if (load_shared(around[m]) != kNoRow)
+        continue;  // the ridge to the horizon, or matched from the other side
       std::uint32_t current = first;
       std::uint32_t entered = ridge.slot;  // slot of the ridge that S + its vertex came from
       std::uint32_t leave = m;
@@ -91,8 +104,8 @@ void Grower<D>::match_cone() {
         next = neighbours(current)[leave];
       }
       const std::uint32_t partner = next & ~kNewBit;
-      around[m] = partner;
-      neighbours(partner)[entered] = row;
+      store_shared(around[m], partner);
+      store_shared(neighbours(partner)[entered], row);
     }
   }
 }
@@ -107,15 +120,44 @@ void Grower<D>::undo_cone() {
   forget_visible();
 }
 
+// Where each ridge is among those of its hidden simplex, then the entries: a hidden simplex may have several
+// ridges, and none is looked for in a row that another thread changes.
+template <std::size_t D>
+void Grower<D>::find_hidden_slots(std::size_t begin, std::size_t end) {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i + kAhead < new_count_) __builtin_prefetch(neighbours(horizon_[i + kAhead].hidden), 1);
+    HorizonRidge& ridge = horizon_[i];
+    const std::uint32_t slot = slot_of<D>(neighbours(ridge.hidden), visible_[ridge.visible_index]);
+    ridge.hidden_slot = static_cast<std::uint16_t>(slot);
+  }
+}
+
+template <std::size_t D>
+void Grower<D>::join_hidden(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const HorizonRidge& ridge = horizon_[i];
+    neighbours(ridge.hidden)[ridge.hidden_slot] = new_rows_[i];
+    store_shared(state_[ridge.hidden], SimplexState::kLive);
+  }
+}
+
+// Two passes, since a hidden simplex may have several ridges: none is looked for in a row that another thread
+// changes.
 template <std::size_t D>
 void Grower<D>::commit() {
-  constexpr std::size_t kAhead = 8;
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    if (i + kAhead < new_count_) __builtin_prefetch(neighbours(horizon_[i + kAhead].hidden), 1);
-    const HorizonRidge& ridge = horizon_[i];
-    std::uint32_t* around = neighbours(ridge.hidden);
-    around[slot_of<D>(around, visible_[ridge.visible_index])] = new_rows_[i];
-    state_[ridge.hidden] = SimplexState::kLive;
+  const auto find = [&](std::size_t begin, std::size_t end) { find_hidden_slots(begin, end); };
+  const auto join = [&](std::size_t begin, std::size_t end) { join_hidden(begin, end); };
+  if (is_parallel_ && new_count_ >= kManyRidges) {
+    for_each_block(new_count_, kRidgesInBlock, find);
+    for_each_block(new_count_, kRidgesInBlock, join);
+    return;
+  }
+  constexpr std::size_t kInCache = 16;
+  for (std::size_t begin = 0; begin < new_count_; begin += kInCache) {
+    const std::size_t end = std::min(begin + kInCache, new_count_);
+    find(begin, end);
+    join(begin, end);
   }
 }
 

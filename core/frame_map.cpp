@@ -9,6 +9,7 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
+#include "core/blocks.h"
 #include "core/frame.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,14 +31,17 @@ HWY_INLINE double compensated_dot(const double* map, const double* offset, std::
 }
 
 void map_full(const PointView& points, const Frame& frame, double* out) {
-  std::vector<double> offset(points.dimension);
-  for (std::size_t row = 0; row < points.rows; ++row) {
-    for (std::size_t k = 0; k < points.dimension; ++k) offset[k] = points.at(row, k) - frame.centre[k];
-    for (std::size_t r = 0; r < frame.rank; ++r) {
-      out[row * frame.rank + r] =
-          compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
+  constexpr std::size_t kPointsInBlock = 4096;
+  for_each_block(points.rows, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> offset(points.dimension);
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t k = 0; k < points.dimension; ++k) offset[k] = points.at(row, k) - frame.centre[k];
+      for (std::size_t r = 0; r < frame.rank; ++r) {
+        out[row * frame.rank + r] =
+            compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
+      }
     }
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -57,13 +61,16 @@ void map_points(const PointView& points, const Frame& frame, double* out) {
   for (std::size_t r = 0; r < frame.rank; ++r) {
     while (frame.map[r * frame.dimension + column_of[r]] == 0.0) ++column_of[r];
   }
-  for (std::size_t row = 0; row < points.rows; ++row) {
-    for (std::size_t r = 0; r < frame.rank; ++r) {
-      const std::size_t column = column_of[r];
-      out[row * frame.rank + r] =
-          (points.at(row, column) - frame.centre[column]) * frame.map[r * frame.dimension + column];
+  constexpr std::size_t kPointsInBlock = 4096;
+  for_each_block(points.rows, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t r = 0; r < frame.rank; ++r) {
+        const std::size_t column = column_of[r];
+        out[row * frame.rank + r] =
+            (points.at(row, column) - frame.centre[column]) * frame.map[r * frame.dimension + column];
+      }
     }
-  }
+  });
 }
 
 }  // namespace ndhull

@@ -21,11 +21,13 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "core/blocks.h"
 #include "core/error.h"
 #include "core/growth.h"
 
@@ -91,9 +93,40 @@ class PhaseClock {
 /// A ridge where the visible set ends.
 struct HorizonRidge {
   std::uint32_t visible_index;  // into the visible list
-  std::uint32_t slot;           // the ridge is opposite this vertex of the visible simplex
+  std::uint16_t slot;           // the ridge is opposite this vertex of the visible simplex
+  std::uint16_t hidden_slot;    // and of the hidden one; known once the cone is committed
   std::uint32_t hidden;         // simplex on the other side
 };
+
+/// A simplex that one block of the visible set's search was the first to meet, as far as the block knew.
+struct FoundVisible {
+  std::uint32_t row;
+  std::uint32_t key;  // where it was met: the least key of all is where a search by one thread meets it
+  double gauge;
+};
+
+/// What one block of the search found.
+struct VisibleBlock {
+  std::vector<FoundVisible> found;
+  std::vector<HorizonRidge> horizon;
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+};
+
+/// Where an outside point goes; row kNoRow: it is inside.
+struct NewPlace {
+  std::uint32_t row;
+  double height;
+};
+
+/// Entries that two threads may set to the same value at the same time. No cost: plain moves.
+template <class T>
+HWY_INLINE T load_shared(T& entry) {
+  return std::atomic_ref<T>(entry).load(std::memory_order_relaxed);
+}
+template <class T>
+HWY_INLINE void store_shared(T& entry, T value) {
+  std::atomic_ref<T>(entry).store(value, std::memory_order_relaxed);
+}
 
 template <std::size_t D>
 class Grower {
@@ -108,12 +141,19 @@ class Grower {
         visible_(work.complex.state.capacity()),
         visible_gauge_(work.complex.state.capacity()),
         horizon_(work.complex.state.capacity() * D),
-        new_rows_(work.complex.state.capacity()) {}
+        new_rows_(work.complex.state.capacity()),
+        is_parallel_(has_more_threads()) {
+    if (is_parallel_) claims_ = HugeArray<std::uint32_t>(work.complex.state.capacity());
+  }
 
   GrowthStop run();
 
  private:
   static constexpr std::size_t kBatch = 8;  // visible simplices whose neighbours are fetched together
+  // From how many elements on a loop is shared, and in blocks of how many: a block is worth some 10 us, the
+  // start of a shared loop costs less. Which loops are shared changes no result.
+  static constexpr std::size_t kManyVisible = 256, kVisibleInBlock = 64;
+  static constexpr std::size_t kManyRidges = 1024, kRidgesInBlock = 256;
 
   double* plane(std::uint32_t row) { return planes_ + std::size_t{row} * D; }
   std::uint32_t* vertices(std::uint32_t row) { return topology_ + std::size_t{row} * 2 * D; }
@@ -121,12 +161,32 @@ class Grower {
   const double* point(std::uint32_t id) const { return points_ + std::size_t{id} * D; }
 
   void find_visible(const double* apex, std::uint32_t seed, double threshold);
+  void fetch_neighbours(std::size_t begin, std::size_t end);
+  void search_block(const double* apex, double threshold, std::size_t chunk, std::size_t begin,
+                    std::size_t end, VisibleBlock& block);
+  void search_chunk(const double* apex, double threshold, std::size_t begin, std::size_t end);
+  std::size_t search_batches(const double* apex, double threshold, std::size_t begin);
+  bool claim(std::uint32_t row, std::uint32_t key);
   void forget_visible();
   void make_cone(std::uint32_t apex, double shift);
+  void make_ridges(std::uint32_t apex, double shift, std::size_t begin, std::size_t end);
   void match_cone();
+  void match_ridges(std::size_t begin, std::size_t end);
   void undo_cone();
   void commit();
+  void find_hidden_slots(std::size_t begin, std::size_t end);
+  void join_hidden(std::size_t begin, std::size_t end);
   void partition(std::uint32_t apex);
+  void place_moved();
+  /// Runs work(begin, end) on all ridges of the horizon.
+  template <class Work>
+  void for_ridges(const Work& work) {
+    if (is_parallel_ && horizon_count_ >= kManyRidges) {
+      for_each_block(horizon_count_, kRidgesInBlock, work);
+    } else {
+      work(std::size_t{0}, horizon_count_);
+    }
+  }
   enum class Outcome { kAdded, kRejected, kNoRoom, kPastLimit };
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
@@ -147,71 +207,16 @@ class Grower {
   HugeArray<double> visible_gauge_;
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
+  bool is_parallel_;
+  HugeArray<std::uint32_t> claims_;           // per row: least key that it was met at in this chunk; 0: none
+  std::vector<VisibleBlock> visible_blocks_;  // of one chunk
+  std::vector<std::uint32_t> moved_;          // points whose simplices are gone
+  std::vector<NewPlace> new_places_;
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
   double highest_hidden_ = 0.0;               // largest gauge tested not above it
   std::vector<std::uint64_t> subridge_keys_;  // XOR of random keys of the vertices; 0: free
 };
-
-// Hill climbing on the dual graph: a linear program whose vertices are the simplices.
-template <std::size_t D>
-std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gauge) {
-  double best = gauge_above<D>(plane(row), y);
-  for (;;) {
-    const std::uint32_t* around = neighbours(row);
-    std::uint32_t best_row = row;
-    for (std::size_t k = 0; k < D; ++k) {
-      const double candidate = gauge_above<D>(plane(around[k]), y);
-      if (candidate > best) {
-        best = candidate;
-        best_row = around[k];
-      }
-    }
-    if (best_row == row) break;
-    row = best_row;
-  }
-  gauge = best;
-  return row;
-}
-
-// The rest of the set is in no order: find its furthest point and put it first.
-template <std::size_t D>
-void Grower<D>::drop_first(std::uint32_t row) {
-  std::uint32_t rest = work_.next_outside[head_[row] - 1];
-  head_[row] = 0;
-  --work_.points_outside;
-  while (rest != 0) {
-    const std::uint32_t id = rest - 1;
-    rest = work_.next_outside[id];
-    --work_.points_outside;
-    push_outside(work_, id, row, work_.height[id]);
-  }
-}
-
-template <std::size_t D>
-void Grower<D>::partition(std::uint32_t apex) {
-  std::uint32_t start = new_rows_[0];
-  const double least = least_height(work_);
-  for (std::size_t i = 0; i < visible_count_; ++i) {
-    const std::uint32_t row = visible_[i];
-    std::uint32_t next = head_[row];
-    head_[row] = 0;
-    state_[row] = SimplexState::kFree;
-    while (next != 0) {
-      const std::uint32_t id = next - 1;
-      next = work_.next_outside[id];
-      --work_.points_outside;
-      if (id == apex) continue;
-      double gauge = 0.0;
-      const std::uint32_t found = locate(point(id), start, gauge);
-      start = found;
-      if (gauge <= 2.0 * work_.options.shift) continue;
-      const double height = height_above(work_, found, gauge);
-      if (height > least) push_outside(work_, id, found, height);
-    }
-    work_.free_rows[work_.free_count++] = row;
-  }
-}
 
 // Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
 // before is then moved below most of them, and they stay (on cubes that halves what is made). Partly random:
@@ -271,7 +276,9 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
 template <std::size_t D>
 bool Grower<D>::room_for_cone() {
   const std::size_t needed = horizon_count_ > work_.free_count ? horizon_count_ - work_.free_count : 0;
-  if (work_.complex.row_count + needed <= work_.complex.state.capacity()) return true;
+  std::size_t most = work_.complex.state.capacity();
+  if (work_.options.most_table_rows != 0) most = std::min<std::size_t>(most, work_.options.most_table_rows);
+  if (work_.complex.row_count + needed <= most) return true;
   forget_visible();
   return false;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/blocks.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -95,8 +96,14 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
   const double least = least_height(work);
   std::vector<bool> is_vertex(work.point_count, false);
   for (const PointId id : simplex) is_vertex[id.value] = true;
-  for (std::uint32_t id = 0; id < work.point_count; ++id) {
-    if (is_vertex[id]) continue;
+  // A chunk at a time: places side by side, then into the outside sets in order.
+  constexpr std::size_t kChunk = std::size_t{1} << 16, kPointsInBlock = 1024;
+  struct Place {
+    std::uint32_t row;
+    double height;  // 0: inside
+  };
+  std::vector<Place> places(std::min(kChunk, work.point_count));
+  const auto place_of = [&](std::uint32_t id) -> Place {
     const double* point = work.points + std::size_t{id} * work.rank;
     double best = -HUGE_VAL;
     std::uint32_t best_row = 0;
@@ -108,9 +115,18 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
         best_row = row;
       }
     }
-    if (best <= 2.0 * work.options.shift) continue;
-    const double height = height_above(work, best_row, best);
-    if (height > least) push_outside(work, id, best_row, height);
+    if (best <= 2.0 * work.options.shift) return {0, 0.0};
+    return {best_row, height_above(work, best_row, best)};
+  };
+  for (std::size_t chunk = 0; chunk < work.point_count; chunk += kChunk) {
+    const std::size_t count = std::min(kChunk, work.point_count - chunk);
+    for_each_block(count, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) places[i] = place_of(static_cast<std::uint32_t>(chunk + i));
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto id = static_cast<std::uint32_t>(chunk + i);
+      if (places[i].height > least && !is_vertex[id]) push_outside(work, id, places[i].row, places[i].height);
+    }
   }
 }
 

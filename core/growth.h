@@ -40,8 +40,8 @@ struct GrowthOptions {
   /// above; 0: never.
   std::uint64_t pause_rows = 0;
   double pause_height = HUGE_VAL;
-  std::uint64_t max_rows = 0;          ///< 0: no limit on simplices
-  std::uint64_t max_memory_bytes = 0;  ///< 0: no limit on the complex's tables
+  std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
+  std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
   std::function<GrowthStop(std::uint64_t points_left, double furthest)> poll;
 };

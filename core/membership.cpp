@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "core/block_elimination-inl.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -96,15 +97,15 @@ SimplexId climb(const SimplicialComplex& complex, const double* y, SimplexId sta
 /// header.
 template <std::size_t D>
 void prove_block(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                 LocatedPoint* block) {
+                 const double* query_points, LocatedPoint* block) {
   const Tag tag;
   const std::size_t lanes = hn::Lanes(tag);
   HWY_ALIGN double entries[D * (D + 1) * HWY_MAX_BYTES / sizeof(double)];
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const auto vertices = complex.vertices(block[lane].simplex);
     for (std::size_t i = 0; i <= D; ++i) {
-      const std::uint32_t id = i < D ? vertices[i].value : block[lane].point.value;
-      const double* row = points + std::size_t{id} * D;
+      const double* row = i < D ? points + std::size_t{vertices[i].value} * D
+                                : query_points + std::size_t{block[lane].point.value} * D;
       for (std::size_t k = 0; k < D; ++k) entries[(k * (D + 1) + i) * lanes + lane] = row[k];
     }
   }
@@ -141,33 +142,38 @@ void prove_block(const SimplicialComplex& complex, const double* points, const H
   }
 }
 
+// Each query starts where the one before it ended, each block of queries at the first simplex.
 template <std::size_t D>
 void locate_all(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                std::span<LocatedPoint> located) {
+                const double* query_points, std::span<LocatedPoint> located) {
+  constexpr std::size_t kQueriesInBlock = 512;  // a multiple of all vectors' lanes
   const std::size_t lanes = hn::Lanes(Tag());
-  SimplexId start{0};
-  while (complex.state[start.value] != SimplexState::kLive) ++start.value;  // growth leaves free rows
+  SimplexId first{0};
+  while (complex.state[first.value] != SimplexState::kLive) ++first.value;  // growth leaves free rows
   const StartingPlaces<D> places(complex);
-  for (std::size_t begin = 0; begin < located.size(); begin += lanes) {
-    LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
-    const std::size_t used = std::min(lanes, located.size() - begin);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      block[lane] = located[begin + std::min(lane, used - 1)];
-      if (lane < used) {
-        const double* y = points + std::size_t{block[lane].point.value} * D;
-        start = climb<D>(complex, y, places.nearest(complex, y, start));
+  for_each_block(located.size(), kQueriesInBlock, [&](std::size_t first_query, std::size_t last_query) {
+    SimplexId start = first;
+    for (std::size_t begin = first_query; begin < last_query; begin += lanes) {
+      LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
+      const std::size_t used = std::min(lanes, last_query - begin);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        block[lane] = located[begin + std::min(lane, used - 1)];
+        if (lane < used) {
+          const double* y = query_points + std::size_t{block[lane].point.value} * D;
+          start = climb<D>(complex, y, places.nearest(complex, y, start));
+        }
+        block[lane].simplex = start;
       }
-      block[lane].simplex = start;
+      prove_block<D>(complex, points, ball, query_points, block);
+      std::copy_n(block, used, located.begin() + static_cast<std::ptrdiff_t>(begin));
     }
-    prove_block<D>(complex, points, ball, block);
-    std::copy_n(block, used, located.begin() + static_cast<std::ptrdiff_t>(begin));
-  }
+  });
 }
 
 void locate_any(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                std::span<LocatedPoint> located) {
-  call_with_dimension<2, kMaxRank>(complex.rank,
-                                   [&](auto d) { locate_all<d>(complex, points, ball, located); });
+                const double* query_points, std::span<LocatedPoint> located) {
+  call_with_dimension<2, kMaxRank>(
+      complex.rank, [&](auto d) { locate_all<d>(complex, points, ball, query_points, located); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -305,8 +311,15 @@ std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const dou
   std::vector<LocatedPoint> located;
   located.reserve(queries.size());
   for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL, HUGE_VAL});
-  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, located);
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, points, located);
   return located;
+}
+
+void try_inside(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                const double* query_points, std::span<LocatedPoint> located) {
+  for (std::uint32_t row = 0; row < located.size(); ++row)
+    located[row] = {PointId{row}, SimplexId{0}, HUGE_VAL, HUGE_VAL};
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, query_points, located);
 }
 
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
@@ -314,20 +327,19 @@ std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const d
                                        std::uint64_t& searched_all) {
   std::vector<LocatedPoint> located = try_inside(complex, points, ball, queries);
   const Walker walker(complex, points, ball);
-  std::size_t unsettled = 0;
-  for (LocatedPoint& point : located) {
-    if (is_settled(point)) continue;
-    walker.walk(point);
-    unsettled += is_settled(point) ? 0u : 1u;
-  }
+  for_each_block(located.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_settled(located[i])) walker.walk(located[i]);
+  });
+  std::vector<std::size_t> unsettled;
+  for (std::size_t i = 0; i < located.size(); ++i)
+    if (!is_settled(located[i])) unsettled.push_back(i);
   const double products =
-      static_cast<double>(unsettled) * static_cast<double>(complex.row_count * complex.rank);
+      static_cast<double>(unsettled.size()) * static_cast<double>(complex.row_count * complex.rank);
   if (products > kSearchProducts) return located;
-  for (LocatedPoint& point : located) {
-    if (is_settled(point)) continue;
-    walker.search_all(point);
-    ++searched_all;
-  }
+  for_each_block(unsettled.size(), 1,
+                 [&](std::size_t begin, std::size_t) { walker.search_all(located[unsettled[begin]]); });
+  searched_all += unsettled.size();
   return located;
 }
 

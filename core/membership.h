@@ -49,5 +49,9 @@ std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const d
 /// The same with hill climbing alone: what is not proven at once is +inf or far too large.
 std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const double* points,
                                      const HullBall& ball, std::span<const PointId> queries);
+/// The same for queries that are no points of the hull: located.size() x rank coordinates. Entry i is for row
+/// i.
+void try_inside(const SimplicialComplex& complex, const double* points, const HullBall& ball,
+                const double* query_points, std::span<LocatedPoint> located);
 
 }  // namespace ndhull

@@ -13,11 +13,15 @@
 #include <vector>
 
 #include "core/block_elimination-inl.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
+// Simplices that one thread takes at a time: a multiple of all vectors' lanes.
+constexpr std::size_t kSimplicesInBlock = 2048;
+
 // Two vectors of facets stay in registers while all points stream by: each broadcast is used twice. D = 0:
 // the dimension is known at run time only and the facets' coordinates come from the stack.
 template <std::size_t D>
@@ -78,19 +82,21 @@ void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::s
                  std::span<const double> points, std::span<const std::uint32_t> row_of_point,
                  std::span<double> low, std::span<double> high) {
   const std::size_t width = D > 0 ? D : dimension;
-  for (std::size_t row = 0; row < low.size(); ++row) {
-    const double* normal = normals.data() + row * width;
-    double smallest = HUGE_VAL, largest = -HUGE_VAL;
-    for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
-      const double* point = points.data() + std::size_t{row_of_point[id.value]} * width;
-      double dot = 0.0;
-      for (std::size_t k = 0; k < width; ++k) dot = __builtin_fma(normal[k], point[k], dot);
-      smallest = std::min(smallest, dot);
-      largest = std::max(largest, dot);
+  for_each_block(low.size(), kSimplicesInBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const double* normal = normals.data() + row * width;
+      double smallest = HUGE_VAL, largest = -HUGE_VAL;
+      for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
+        const double* point = points.data() + std::size_t{row_of_point[id.value]} * width;
+        double dot = 0.0;
+        for (std::size_t k = 0; k < width; ++k) dot = __builtin_fma(normal[k], point[k], dot);
+        smallest = std::min(smallest, dot);
+        largest = std::max(largest, dot);
+      }
+      low[row] = smallest;
+      high[row] = largest;
     }
-    low[row] = smallest;
-    high[row] = largest;
-  }
+  });
 }
 
 // Neighbours are fetched some simplices ahead: they lie anywhere in memory.
@@ -179,29 +185,31 @@ template <std::size_t D>
 void solve_simplices_of(SimplicialComplex& complex, const double* points, bool replace_planes,
                         std::span<double> determinants) {
   const std::size_t lanes = hn::Lanes(Tag());
-  std::vector<const double*> rows(lanes * D);
-  std::vector<double> dual(lanes * D), determinant(lanes);
-  for (std::size_t begin = 0; begin < complex.row_count; begin += lanes) {
-    const std::size_t used = std::min(lanes, complex.row_count - begin);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
-      const auto vertices = complex.vertices(simplex);
-      for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
+  for_each_block(complex.row_count, kSimplicesInBlock, [&](std::size_t first, std::size_t last) {
+    std::vector<const double*> rows(lanes * D);
+    std::vector<double> dual(lanes * D), determinant(lanes);
+    for (std::size_t begin = first; begin < last; begin += lanes) {
+      const std::size_t used = std::min(lanes, last - begin);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
+        const auto vertices = complex.vertices(simplex);
+        for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
+      }
+      // Planes that are not to be replaced say whether pivots are needed.
+      if (!replace_planes) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
+      if (replace_planes || !agree<D>(complex, begin, used, dual.data(), lanes)) {
+        solve_block<D, true>(rows.data(), dual.data(), determinant.data());
+      }
+      for (std::size_t lane = 0; lane < used; ++lane) {
+        // A zero pivot, of a simplex without volume, turns into NaN further down.
+        determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;
+      }
+      if (!replace_planes) continue;
+      for (std::size_t lane = 0; lane < used; ++lane) {
+        take_plane<D>(complex.planes.data() + (begin + lane) * D, dual.data() + lane, lanes);
+      }
     }
-    // Planes that are not to be replaced say whether pivots are needed.
-    if (!replace_planes) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
-    if (replace_planes || !agree<D>(complex, begin, used, dual.data(), lanes)) {
-      solve_block<D, true>(rows.data(), dual.data(), determinant.data());
-    }
-    for (std::size_t lane = 0; lane < used; ++lane) {
-      // A zero pivot, of a simplex without volume, turns into NaN further down.
-      determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;
-    }
-    if (!replace_planes) continue;
-    for (std::size_t lane = 0; lane < used; ++lane) {
-      take_plane<D>(complex.planes.data() + (begin + lane) * D, dual.data() + lane, lanes);
-    }
-  }
+  });
 }
 
 void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,

@@ -18,12 +18,15 @@ struct PointView {
   ScalarType type = ScalarType::kFloat64;
   std::size_t row_stride = 0;
   std::size_t column_stride = 1;
+  /// The data are a file mapped read-only: of large inputs what was read is given back to the system, since
+  /// it comes again from the file when it is wanted.
+  bool is_file_mapping = false;
 
   static PointView row_major(const double* data, std::size_t rows, std::size_t dimension) {
-    return {data, rows, dimension, ScalarType::kFloat64, dimension, 1};
+    return {data, rows, dimension, ScalarType::kFloat64, dimension, 1, false};
   }
   static PointView row_major(const float* data, std::size_t rows, std::size_t dimension) {
-    return {data, rows, dimension, ScalarType::kFloat32, dimension, 1};
+    return {data, rows, dimension, ScalarType::kFloat32, dimension, 1, false};
   }
 
   /// Coordinate `column` of point `row` as a double (exact for both types).

@@ -1,0 +1,102 @@
+// The points of simplices that are gone: each goes to a new simplex that it is above, or is inside. Included
+// once per target by growth_kernels.cpp.
+
+#if defined(NDHULL_PARTITION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NDHULL_PARTITION_INL_H_
+#undef NDHULL_PARTITION_INL_H_
+#else
+#define NDHULL_PARTITION_INL_H_
+#endif
+
+#include "core/grower-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+
+// Hill climbing on the dual graph: a linear program whose vertices are the simplices.
+template <std::size_t D>
+std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gauge) {
+  double best = gauge_above<D>(plane(row), y);
+  for (;;) {
+    const std::uint32_t* around = neighbours(row);
+    std::uint32_t best_row = row;
+    for (std::size_t k = 0; k < D; ++k) {
+      const double candidate = gauge_above<D>(plane(around[k]), y);
+      if (candidate > best) {
+        best = candidate;
+        best_row = around[k];
+      }
+    }
+    if (best_row == row) break;
+    row = best_row;
+  }
+  gauge = best;
+  return row;
+}
+
+// The rest of the set is in no order: find its furthest point and put it first.
+template <std::size_t D>
+void Grower<D>::drop_first(std::uint32_t row) {
+  std::uint32_t rest = work_.next_outside[head_[row] - 1];
+  head_[row] = 0;
+  --work_.points_outside;
+  while (rest != 0) {
+    const std::uint32_t id = rest - 1;
+    rest = work_.next_outside[id];
+    --work_.points_outside;
+    push_outside(work_, id, row, work_.height[id]);
+  }
+}
+
+// The points of the simplices that are gone, a chunk at a time.
+template <std::size_t D>
+void Grower<D>::partition(std::uint32_t apex) {
+  constexpr std::size_t kChunk = std::size_t{1} << 16;  // bounds the memory that a first insertion needs
+  moved_.clear();
+  for (std::size_t i = 0; i < visible_count_; ++i) {
+    const std::uint32_t row = visible_[i];
+    std::uint32_t next = head_[row];
+    head_[row] = 0;
+    state_[row] = SimplexState::kFree;
+    work_.free_rows[work_.free_count++] = row;
+    while (next != 0) {
+      const std::uint32_t id = next - 1;
+      next = work_.next_outside[id];
+      --work_.points_outside;
+      if (id == apex) continue;
+      moved_.push_back(id);
+      if (moved_.size() == kChunk) place_moved();
+    }
+  }
+  place_moved();
+}
+
+// Each point starts where the one before it ended; each block starts afresh.
+template <std::size_t D>
+void Grower<D>::place_moved() {
+  constexpr std::size_t kPointsInBlock = 64;
+  const double least = least_height(work_);
+  new_places_.resize(moved_.size());
+  for_each_block(moved_.size(), kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t start = new_rows_[0];
+    for (std::size_t i = begin; i < end; ++i) {
+      double gauge = 0.0;
+      const std::uint32_t found = start = locate(point(moved_[i]), start, gauge);
+      new_places_[i].row = kNoRow;
+      if (gauge <= 2.0 * work_.options.shift) continue;
+      const double height = height_above(work_, found, gauge);
+      if (height > least) new_places_[i] = {found, height};
+    }
+  });
+  for (std::size_t i = 0; i < moved_.size(); ++i)
+    if (new_places_[i].row != kNoRow)
+      push_outside(work_, moved_[i], new_places_[i].row, new_places_[i].height);
+  moved_.clear();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
