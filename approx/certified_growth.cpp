@@ -36,7 +36,12 @@ HullStatus status_of(GrowthStop stop) {
 CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
                                  std::vector<double> gradient_factor, const HullOptions& options,
                                  Clock::time_point start, Hull& hull)
-    : points_(points), frame_(frame), options_(options), start_(start), hull_(hull) {
+    : points_(points),
+      frame_(frame),
+      options_(options),
+      start_(start),
+      hull_(hull),
+      limits_(options.limits, start, gradient_factor.empty()) {
   coordinates_.resize(points_.rows * frame_.rank + 8);
   map_points(points_, frame_, coordinates_.data());
   work_.options.gradient_factor = std::move(gradient_factor);
@@ -67,18 +72,32 @@ void CertifiedGrowth::make_segment() {
 
 GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   const std::uint64_t rows = work_.complex.row_count - work_.free_count;
-  const std::uint64_t bytes =
-      work_.complex.row_count * (16 * frame_.rank + 5) + coordinates_.size() * 8 + points_.rows * 12;
-  if (options_.progress) {
-    options_.progress({Phase::kGrowth, points_left, rows, furthest, seconds_since(start_), bytes});
-  }
+  record_progress(points_left, furthest, rows);
+  tell(Phase::kGrowth, points_left, furthest);
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
-  const Limits& limits = options_.limits;
-  if (limits.max_seconds > 0.0 && seconds_since(start_) > limits.max_seconds) return GrowthStop::kTimeLimit;
-  // The facet table takes about as much again for each simplex as is kept of the planes.
-  const std::uint64_t at_end = bytes + rows * (8 * frame_.dimension + 40);
-  if (limits.max_memory_bytes > 0 && at_end > limits.max_memory_bytes) return GrowthStop::kMemoryLimit;
-  return GrowthStop::kNoOutsidePoints;
+  const std::uint64_t to_prove = points_.rows - std::min<std::uint64_t>(points_.rows, proven_count_ + rows);
+  return limits_.is_time_up(work_, ball_, to_prove) ? GrowthStop::kTimeLimit : GrowthStop::kNoOutsidePoints;
+}
+
+/// The furthest point's height whenever the hull has grown by half. An earlier height is never exceeded: the
+/// hull only grows.
+void CertifiedGrowth::record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices) {
+  std::vector<GrowthRecord>& curve = hull_.statistics.growth_curve;
+  if (!curve.empty() && simplices < curve.back().simplices + curve.back().simplices / 2) return;
+  if (!curve.empty()) furthest = std::min(furthest, curve.back().furthest);
+  curve.push_back({seconds_since(start_), simplices, points_left, furthest});
+}
+
+void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthest) const {
+  if (!options_.progress) return;
+  const std::uint64_t bytes = work_.complex.row_count * (16 * frame_.rank + 9) + point_bytes();
+  options_.progress({phase, points_left, work_.complex.row_count - work_.free_count, furthest,
+                     seconds_since(start_), bytes});
+}
+
+/// Coordinates, outside sets, flags, and what a proof lists of each point.
+std::uint64_t CertifiedGrowth::point_bytes() const {
+  return coordinates_.size() * 8 + points_.rows * (12 + 2 + sizeof(LocatedPoint));
 }
 
 void CertifiedGrowth::start() {
@@ -90,11 +109,12 @@ void CertifiedGrowth::start() {
   work_.options.seed = options_.seed;
   work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
+  work_.options.most_table_rows = limits_.most_rows(frame_.rank, frame_.dimension, point_bytes());
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
   const Clock::time_point begin = Clock::now();
+  ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
   start_growth(work_, frame_.simplex);
   detail("first partition", begin);
-  ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
   if (points_.rows > kManyPoints) prove_early();
 }
 
@@ -107,6 +127,7 @@ void CertifiedGrowth::grow_exactly() {
     hull_.status = status_of(stop);
     seconds(Phase::kGrowth) += seconds_since(phase_start);
     phase_start = Clock::now();
+    tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =
         prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all);
     const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && repair(located);
@@ -135,6 +156,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
 void CertifiedGrowth::locate_left_out() {
   const Clock::time_point begin = Clock::now();
   std::uint64_t searched_all = 0;
+  tell(Phase::kCertify, work_.points_outside, furthest_height());
   choose_certificate_points(
       prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all));
   seconds(Phase::kCertify) += seconds_since(begin);
@@ -195,7 +217,9 @@ void CertifiedGrowth::prove_early() {
   const std::vector<PointId> candidates = points_off_the_complex();
   proven_.assign(points_.rows, false);
   for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball_, candidates)) {
-    if (point.gauge < -kWellInside) proven_[point.point.value] = true;
+    if (point.gauge >= -kWellInside) continue;
+    proven_[point.point.value] = true;
+    ++proven_count_;
   }
   seconds(Phase::kCertify) += seconds_since(begin);
 }
@@ -244,7 +268,8 @@ void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>&
   const double live = static_cast<double>(work_.complex.row_count - work_.free_count);
   const double products = live * static_cast<double>(left_out_.size() * frame_.dimension);
   covered_gauge_ = 0.0;
-  if (products > kAffordableProducts && std::isfinite(largest_gauge)) {
+  const double affordable = std::min(kAffordableProducts, limits_.affordable_products(work_));
+  if (products > affordable && std::isfinite(largest_gauge)) {
     // Rounding of the frame's coordinates is far below this.
     covered_gauge_ = largest_gauge + 1e-14;
     return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "approx/hull.h"
+#include "approx/work_limits.h"
 #include "core/frame.h"
 #include "core/growth.h"
 #include "core/membership.h"
@@ -60,6 +61,9 @@ class CertifiedGrowth {
   void start();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);
+  void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
+  std::uint64_t point_bytes() const;
+  void tell(Phase phase, std::uint64_t points_left, double furthest) const;
   void prove_early();
   std::vector<PointId> points_off_the_complex();
   bool repair(const std::vector<LocatedPoint>& located);
@@ -75,9 +79,11 @@ class CertifiedGrowth {
   std::vector<double> coordinates_;  // points x rank, in the frame
   GrowthWork work_;
   HullBall ball_;
+  WorkLimits limits_;
   bool has_started_ = false;
   std::vector<bool> certificate_wanted_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
+  std::uint64_t proven_count_ = 0;
   std::vector<LocatedPoint> left_out_;
   double covered_gauge_ = 0.0;
 };

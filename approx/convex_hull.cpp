@@ -1,4 +1,5 @@
 // The driver. Steps in order, with the file that holds each:
+//   0 large inputs     approx/point_reduction  points well inside are dropped, each with a proof
 //   1 frame            core/frame           coordinates to work in, the first simplex, the rank
 //   2 growth           core/growth          insertions, furthest point first
 //   3 certify          core/membership      every point proven inside, or put back: growth goes on
@@ -18,6 +19,7 @@
 #include "approx/facet_table.h"
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
+#include "approx/point_reduction.h"
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -38,10 +40,23 @@ double seconds_since(Clock::time_point start) {
 /// One run: the tables that its steps hand on.
 class HullBuilder {
  public:
-  HullBuilder(const PointView& points, const HullOptions& options) : points_(points), options_(options) {}
+  /// `start`: of the whole call.
+  HullBuilder(const PointView& points, const HullOptions& options, Clock::time_point start)
+      : points_(points), options_(options), start_(start) {}
+
+  /// The hull of some of the points in terms of all of them: point i of it is ids[i].
+  static void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
+    hull.point_count = point_count;
+    for (PointId& vertex : hull.vertices) vertex.value = ids[vertex.value];
+    for (std::uint32_t& id : hull.facet_vertices_.values) id = ids[id];
+    const std::size_t rank = hull.simplices.rank;
+    for (std::size_t row = 0; row < hull.simplices.row_count; ++row) {
+      std::uint32_t* vertices = hull.simplices.topology.data() + row * 2 * rank;
+      for (std::size_t k = 0; k < rank; ++k) vertices[k] = ids[vertices[k]];
+    }
+  }
 
   Hull run() {
-    start_ = Clock::now();
     frame_ = fit_frame(points_);
     if (frame_.rank > kMaxRank) {
       throw Error(ErrorCode::kDimensionTooHigh, "points span " + std::to_string(frame_.rank) +
@@ -220,10 +235,40 @@ class HullBuilder {
   std::vector<bool> is_vertex_;
 };
 
+namespace {
+
+/// Of a large input, only the points that are not proven to be well inside.
+Hull hull_of_reduced(const PointView& points, HullOptions options) {
+  const Clock::time_point start = Clock::now();
+  if (points.rows < kPointsToReduce) return HullBuilder(points, options, start).run();
+  const auto is_late = [&] {
+    constexpr double kShare = 0.2;  // of the time, for looking at points that will turn out to be inside
+    const double most = options.limits.max_seconds;
+    return options.stop.stop_requested() || (most > 0.0 && seconds_since(start) > kShare * most);
+  };
+  std::vector<std::uint32_t> ids = find_points_to_keep(points, options.seed, is_late);
+  constexpr double kWorthACopy = 0.7;
+  if (static_cast<double>(ids.size()) > kWorthACopy * static_cast<double>(points.rows))
+    return HullBuilder(points, options, start).run();
+  const ReducedPoints reduced(points, std::move(ids));
+  const double seconds = seconds_since(start);
+  std::uint64_t& most_bytes = options.limits.max_memory_bytes;
+  if (most_bytes > reduced.bytes()) most_bytes -= reduced.bytes();
+  const PointView view = reduced.view();
+  Hull hull = HullBuilder(view, options, start).run();
+  HullBuilder::rename_points(hull, reduced.ids(), points.rows);
+  hull.statistics.dropped_points = points.rows - reduced.ids().size();
+  hull.statistics.seconds[static_cast<std::size_t>(Phase::kCertify)] += seconds;
+  hull.statistics.detail_seconds.emplace_back("dropping points", seconds);
+  return hull;
+}
+
+}  // namespace
+
 Hull convex_hull(const PointView& points, const HullOptions& options) {
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                              : static_cast<int>(options.threads));
-  return arena.execute([&] { return HullBuilder(points, options).run(); });
+  return arena.execute([&] { return hull_of_reduced(points, options); });
 }
 
 }  // namespace ndhull

@@ -27,8 +27,8 @@ namespace ndhull {
 /// certified and labelled by Hull::status.
 struct Limits {
   std::uint64_t max_facets = 0;        ///< simplices of the growth complex
-  double max_seconds = 0.0;            ///< wall clock, from the start of the call
-  std::uint64_t max_memory_bytes = 0;  ///< accounted memory of the tables
+  double max_seconds = 0.0;            ///< wall clock of the whole call: growth ends in time for the rest
+  std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
 };
 
 /// The phases of one run, in order; the report, the progress line and the benchmarks use these names.
@@ -69,14 +69,26 @@ struct AccuracyChosen {
   std::uint64_t merges = 0, refused_merges = 0;
 };
 
+/// How far growth was at some time: what an earlier end would have given.
+struct GrowthRecord {
+  double seconds = 0.0;  ///< from the start of the call
+  std::uint64_t simplices = 0;
+  std::uint64_t points_left = 0;  ///< points outside
+  /// How far outside the furthest point was. The exact hull: a gauge, so all points were in the hull of that
+  /// time scaled by 1 + this. With an accuracy: a height above a simplex, in the length unit. Never rises.
+  double furthest = 0.0;
+};
+
 /// Numbers about the run.
 struct HullStatistics {
+  std::uint64_t dropped_points = 0;  ///< of a large input: proven inside before the hull was grown
   std::uint64_t created_simplices = 0;
   std::uint64_t insertions = 0;
   std::uint64_t shifted_points = 0;  ///< points that had to be moved inwards (input is nearly degenerate)
   std::uint64_t rejected_insertions =
       0;  ///< insertions whose horizon did not close and that were not committed
   std::uint64_t repair_rounds = 0;
+  std::vector<GrowthRecord> growth_curve;  ///< whenever the hull had half as many simplices more
   std::array<double, static_cast<std::size_t>(Phase::kCount)> seconds{};
   std::vector<std::pair<std::string_view, double>> detail_seconds;  ///< finer clock, for the benchmarks
 };

@@ -3,10 +3,12 @@
 #include "approx/report.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "approx/facet_selection.h"
@@ -94,11 +96,20 @@ Json seconds_of(const Hull& hull, const ReportContext& context) {
 Json statistics_of(const HullStatistics& statistics) {
   Json detail = Json::object();
   for (const auto& [name, seconds] : statistics.detail_seconds) detail[std::string(name)] = seconds;
-  return {{"created_simplices", statistics.created_simplices},
+  Json curve = Json::array();
+  for (const GrowthRecord& record : statistics.growth_curve) {
+    curve.push_back({{"seconds", record.seconds},
+                     {"simplices", record.simplices},
+                     {"points_left", record.points_left},
+                     {"furthest", record.furthest}});
+  }
+  return {{"dropped_points", statistics.dropped_points},
+          {"created_simplices", statistics.created_simplices},
           {"insertions", statistics.insertions},
           {"shifted_points", statistics.shifted_points},
           {"rejected_insertions", statistics.rejected_insertions},
           {"repair_rounds", statistics.repair_rounds},
+          {"growth_curve", std::move(curve)},
           {"detail_seconds", std::move(detail)}};
 }
 
@@ -269,6 +280,15 @@ std::uint64_t peak_memory_bytes() {
   constexpr std::uint64_t kUnit = 1024;
 #endif
   return static_cast<std::uint64_t>(usage.ru_maxrss) * kUnit;
+}
+
+std::uint64_t resident_memory_bytes() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  unsigned long long pages = 0;
+  const bool is_read = std::fscanf(file, "%*u %llu", &pages) == 1;
+  std::fclose(file);
+  return is_read ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
 }  // namespace ndhull

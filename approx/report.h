@@ -62,5 +62,7 @@ std::string hull_report_json(const Hull& hull, const ReportContext& context);
 
 /// The largest memory the process has had so far. [bytes] 0 where the system does not tell.
 std::uint64_t peak_memory_bytes();
+/// The memory that it has now. [bytes] 0 where the system does not tell.
+std::uint64_t resident_memory_bytes();
 
 }  // namespace ndhull

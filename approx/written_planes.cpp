@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "approx/point_reduction.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -34,10 +35,15 @@ std::string_view to_string(PlaneKind kind) {
 
 std::vector<double> largest_coordinates(const PointView& points) {
   std::vector<double> largest(points.dimension, 0.0);
-  for (std::size_t row = 0; row < points.rows; ++row) {
-    for (std::size_t k = 0; k < points.dimension; ++k) {
-      largest[k] = std::max(largest[k], std::abs(points.at(row, k)));
+  constexpr std::size_t kRowsInBlock = std::size_t{1} << 15;
+  for (std::size_t begin = 0; begin < points.rows; begin += kRowsInBlock) {
+    const std::size_t end = std::min(points.rows, begin + kRowsInBlock);
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t k = 0; k < points.dimension; ++k) {
+        largest[k] = std::max(largest[k], std::abs(points.at(row, k)));
+      }
     }
+    if (points.rows >= kPointsToReduce) give_back_rows(points, begin, end);
   }
   return largest;
 }

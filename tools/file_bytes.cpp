@@ -46,6 +46,7 @@ void FileBytes::swap(FileBytes& other) noexcept {
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
   std::swap(mapping_, other.mapping_);
+  std::swap(watched_, other.watched_);
   std::swap(buffer_, other.buffer_);
 }
 
@@ -71,6 +72,7 @@ FileBytes FileBytes::read_descriptor(int descriptor, const std::string& name) {
     if (mapping != MAP_FAILED) {
       ::madvise(mapping, size, MADV_SEQUENTIAL);
       bytes.mapping_ = mapping;
+      bytes.watched_ = WatchedMapping(mapping, size, name);
       bytes.data_ = static_cast<const char*>(mapping);
       bytes.size_ = size;
       return bytes;
@@ -94,6 +96,11 @@ FileBytes FileBytes::read_descriptor(int descriptor, const std::string& name) {
   bytes.data_ = bytes.buffer_.data();
   bytes.size_ = used;
   return bytes;
+}
+
+void FileBytes::give_back(std::size_t count) const {
+  constexpr std::size_t kLargestPage = std::size_t{1} << 16;  // of all machines in use
+  if (mapping_ != nullptr) ::madvise(mapping_, count / kLargestPage * kLargestPage, MADV_DONTNEED);
 }
 
 FileBytes FileBytes::copy_of(std::string_view content) {

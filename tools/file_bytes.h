@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/sudden_end.h"
+
 namespace ndhull {
 
 /// Owns the bytes of one input. They do not move when the object does, so views into them stay valid.
@@ -29,6 +31,11 @@ class FileBytes {
   static FileBytes copy_of(std::string_view content);
 
   std::string_view view() const { return {data_, size_}; }
+  /// A file, mapped: not a pipe, nor a copy.
+  bool is_mapping() const { return mapping_ != nullptr; }
+  /// The first `count` bytes were read and are not needed for now: those of a mapped file leave the memory,
+  /// and come again when they are.
+  void give_back(std::size_t count) const;
 
  private:
   void swap(FileBytes& other) noexcept;
@@ -36,6 +43,7 @@ class FileBytes {
   const char* data_ = nullptr;
   std::size_t size_ = 0;
   void* mapping_ = nullptr;   // of size_ bytes, or null when buffer_ holds the bytes
+  WatchedMapping watched_;    // the mapping's
   std::vector<char> buffer_;  // heap memory: aligned as operator new does
 };
 

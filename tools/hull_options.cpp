@@ -77,10 +77,13 @@ void HullOptionSet::add_to(CLI::App& command) {
   command.add_option("--max-facets", options_.limits.max_facets, "limit: simplices of the growing hull")
       ->type_name("N")
       ->check(whole_number(1));
-  command.add_option("--max-seconds", options_.limits.max_seconds, "limit: seconds of growth")
+  command
+      .add_option("--max-seconds", options_.limits.max_seconds,
+                  "limit: seconds of the whole run; growth ends in time for the rest")
       ->type_name("S")
       ->check(positive_number());
-  command.add_option("--max-memory", max_memory_, "limit: memory of the tables, like 4G, 512M or 65536")
+  command
+      .add_option("--max-memory", max_memory_, "limit: memory of the whole run, like 4G, 512M or 65536 bytes")
       ->type_name("B");
   command.add_flag("--unit-cube", options_.unit_cube,
                    "measure offsets, widths and roundoff after scaling the input to the unit cube");

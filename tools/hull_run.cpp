@@ -103,8 +103,17 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
   }
 }
 
+/// What reading left of the limits. A limit that is used up leaves the smallest one.
+Limits limits_left(Limits limits, double seconds, std::uint64_t bytes) {
+  if (limits.max_seconds > 0.0) limits.max_seconds = std::max(limits.max_seconds - seconds, 1e-9);
+  if (limits.max_memory_bytes > bytes) limits.max_memory_bytes -= bytes;
+  return limits;
+}
+
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
 OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context) {
+  const bool is_complete = hull.status == HullStatus::kComplete || hull.status == HullStatus::kFacetLimit;
+  if (!is_complete && !request.outer_volume) return {std::nullopt, "a limit ended growth"};
   std::span<const FacetId> facets;
   if (context.selection != nullptr) {
     if (!context.selection->bounded) return {std::nullopt, "the outer planes do not bound a region"};
@@ -141,12 +150,17 @@ int run_hull(const HullRequest& request) {
   context.options.threads = static_cast<unsigned>(arena.max_concurrency());
   context.options.stop = interrupt.token();
   if (progress.is_shown()) {
-    context.options.progress = [&progress](const Progress& now) { progress.show(now); };
+    context.options.progress = [&progress](Progress now) {
+      now.memory_bytes = resident_memory_bytes();
+      progress.show(now);
+    };
   }
   context.read_seconds = seconds_since(start);
 
   interrupt.arm();
-  const Hull hull = convex_hull(points.view(), context.options);
+  HullOptions hull_options = context.options;
+  hull_options.limits = limits_left(hull_options.limits, seconds_since(start), resident_memory_bytes());
+  const Hull hull = convex_hull(points.view(), hull_options);
 
   std::optional<Verification> verification;
   if (request.verify.has_value()) {

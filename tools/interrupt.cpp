@@ -2,7 +2,8 @@
 
 #include <pthread.h>
 #include <signal.h>
-#include <unistd.h>
+
+#include "tools/sudden_end.h"
 
 namespace ndhull {
 namespace {
@@ -36,7 +37,7 @@ void Interrupt::wait_for_signals() {
   const sigset_t set = only_sigint();
   for (int signal = 0; ::sigwait(&set, &signal) == 0;) {
     if (is_done_) return;
-    if (!is_armed_ || stop_.stop_requested()) ::_exit(kInterruptedExitCode);
+    if (!is_armed_ || stop_.stop_requested()) end_suddenly(kInterruptedExitCode);
     stop_.request_stop();
   }
 }

@@ -202,8 +202,14 @@ PointFile read_npy(FileBytes bytes, const std::string& name) {
     return {name, std::move(values), view};
   }
 
-  const std::size_t bad = is_float ? find_non_finite<std::uint32_t, 23>(data, count)
-                                   : find_non_finite<std::uint64_t, 52>(data, count);
+  constexpr std::size_t kChunk = std::size_t{1} << 22;  // elements: a file need not fit into memory
+  std::size_t bad = 0;
+  for (std::size_t chunk = 0; chunk < count && bad == chunk; chunk += kChunk) {
+    const std::size_t used = std::min(kChunk, count - chunk), size = is_float ? 4 : 8;
+    bad = chunk + (is_float ? find_non_finite<std::uint32_t, 23>(data + chunk * size, used)
+                            : find_non_finite<std::uint64_t, 52>(data + chunk * size, used));
+    if (count > kChunk) bytes.give_back(header.data_offset + (chunk + used) * size);
+  }
   if (bad != count) {
     float single = 0.0F;
     double value = 0.0;
@@ -215,6 +221,7 @@ PointFile read_npy(FileBytes bytes, const std::string& name) {
   if (reinterpret_cast<std::uintptr_t>(data) % (is_float ? alignof(float) : alignof(double)) == 0) {
     view.type = is_float ? ScalarType::kFloat32 : ScalarType::kFloat64;
     view.data = data;
+    view.is_file_mapping = bytes.is_mapping();
     return {name, std::move(bytes), view};
   }
   std::vector<double> values(count);

@@ -53,6 +53,7 @@ OutputFile::OutputFile(const std::string& path) : name_(path == "-" ? "standard 
       fail(error_number);
     }
   }
+  doomed_ = DoomedFile(temporary_);
   // Best effort: some file systems have no permissions.
   if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
 }
@@ -97,6 +98,7 @@ void OutputFile::commit() {
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  doomed_ = DoomedFile();
 }
 
 }  // namespace ndhull

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "tools/sudden_end.h"
+
 namespace ndhull {
 
 /// A file being written. Without `commit` the target stays as it was and nothing is left behind.
@@ -44,6 +46,7 @@ class OutputFile {
   std::string name_;       // for messages
   std::string target_;     // empty when nothing is renamed
   std::string temporary_;  // empty when there is none
+  DoomedFile doomed_;      // the temporary one
   int descriptor_ = -1;
   bool owns_descriptor_ = false;
   fmt::memory_buffer buffer_;

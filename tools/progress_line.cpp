@@ -22,11 +22,25 @@ std::size_t terminal_columns() {
 
 }  // namespace
 
-std::string describe(const Progress& progress) {
-  return fmt::format("{}: {} points left, {} simplices, furthest {:.1e}, {:.1f} s, {}",
-                     to_string(progress.phase), progress.points_left, progress.simplices,
-                     progress.furthest_gauge, progress.elapsed_seconds,
-                     format_byte_count(progress.memory_bytes));
+ProgressRates rates_between(const Progress& before, const Progress& now) {
+  ProgressRates rates;
+  const double seconds = now.elapsed_seconds - before.elapsed_seconds;
+  if (before.phase != now.phase || seconds <= 0.0) return rates;
+  if (now.simplices > before.simplices)
+    rates.simplices_per_second = static_cast<double>(now.simplices - before.simplices) / seconds;
+  if (before.points_left > now.points_left)
+    rates.seconds_left = static_cast<double>(now.points_left) * seconds /
+                         static_cast<double>(before.points_left - now.points_left);
+  return rates;
+}
+
+std::string describe(const Progress& progress, const ProgressRates& rates) {
+  std::string text = fmt::format("{}: {} points left, {} simplices", to_string(progress.phase),
+                                 progress.points_left, progress.simplices);
+  if (rates.simplices_per_second > 0.0) text += fmt::format(" (+{:.2g}/s)", rates.simplices_per_second);
+  text += fmt::format(", furthest {:.1e}, {:.1f} s", progress.furthest_gauge, progress.elapsed_seconds);
+  if (rates.seconds_left > 0.0) text += fmt::format(" (about {:.2g} s left)", rates.seconds_left);
+  return text + ", " + format_byte_count(progress.memory_bytes);
 }
 
 ProgressLine::ProgressLine(bool is_forced, bool is_quiet) : is_terminal_(::isatty(STDERR_FILENO) == 1) {
@@ -43,7 +57,9 @@ bool ProgressLine::is_due(std::string_view phase) {
 }
 
 void ProgressLine::show(const Progress& progress) {
-  if (is_due(to_string(progress.phase))) print(describe(progress));
+  if (!is_due(to_string(progress.phase))) return;
+  print(describe(progress, rates_between(before_, progress)));
+  before_ = progress;
 }
 
 void ProgressLine::show_phase(std::string_view phase) {

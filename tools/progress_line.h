@@ -38,9 +38,18 @@ class ProgressLine {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_;
   std::string last_phase_;
+  Progress before_;  // shown last, or somewhat earlier
 };
 
-/// One line, mostly below 80 columns: phase, points left, simplices, furthest gauge, elapsed, memory.
-std::string describe(const Progress& progress);
+/// What two looks at a run tell together; 0: not known.
+struct ProgressRates {
+  double simplices_per_second = 0.0;  ///< more of them
+  double seconds_left = 0.0;          ///< when points go on being settled as fast: a guess
+};
+ProgressRates rates_between(const Progress& before, const Progress& now);
+
+/// One line, mostly below 100 columns: phase, points still outside, simplices and how many more a second, how
+/// far outside the furthest point is, elapsed and left, memory.
+std::string describe(const Progress& progress, const ProgressRates& rates = {});
 
 }  // namespace ndhull

@@ -55,5 +55,18 @@ TEST(ProgressExample, ALineNamesEveryNumber) {
             "growth: 12 points left, 345 simplices, furthest 2.5e-01, 1.5 s, 2 GB");
 }
 
+TEST(ProgressExample, TwoLooksTellRatesAndAGuess) {
+  const Progress before{.points_left = 100, .simplices = 1000, .elapsed_seconds = 1.0};
+  Progress now{.points_left = 80, .simplices = 5000, .furthest_gauge = 0.25, .elapsed_seconds = 3.0};
+  const ProgressRates rates = rates_between(before, now);
+  EXPECT_EQ(rates.simplices_per_second, 2000.0);
+  EXPECT_EQ(rates.seconds_left, 8.0);
+  EXPECT_EQ(
+      describe(now, rates),
+      "growth: 80 points left, 5000 simplices (+2e+03/s), furthest 2.5e-01, 3.0 s (about 8 s left), 0 B");
+  now.phase = Phase::kCertify;  // another phase has another pace
+  EXPECT_EQ(rates_between(before, now).seconds_left, 0.0);
+}
+
 }  // namespace
 }  // namespace ndhull

@@ -1,4 +1,6 @@
 // A limit ends growth, not the promise: what is there is a sound hull whose outer planes bound every point.
+#include <chrono>
+#include <cmath>
 #include <stop_token>
 
 #include "core/complex_check.h"
@@ -58,6 +60,39 @@ TEST(LimitsExample, ALimitThatIsNotReachedChangesNothing) {
 TEST(LimitsExample, TimeEndsGrowth) {
   const PointSet set = sphere(2000, 8);
   expect_certified_with(HullStatus::kTimeLimit, set, {.limits = {.max_seconds = 0.05}});
+}
+
+TEST(LimitsLaw, TheTimeLimitIsForTheWholeCallAndGrowthIsRecorded) {
+  const PointSet set = sphere(5000, 9);
+  for (const double seconds : {0.25, 1.0}) {
+    const auto start = std::chrono::steady_clock::now();
+    const Hull hull = hull_of(set, {.limits = {.max_seconds = seconds}});
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(hull.status, HullStatus::kTimeLimit);
+    EXPECT_LT(hull.statistics.seconds[static_cast<std::size_t>(Phase::kGrowth)], 0.95 * seconds);
+    EXPECT_LT(elapsed.count(), 3.0 * seconds);  // loaded machines; alone it is 0.7 to 1.1 times
+    const std::vector<GrowthRecord>& curve = hull.statistics.growth_curve;
+    ASSERT_GT(curve.size(), 3U);
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      EXPECT_GE(curve[i].seconds, curve[i - 1].seconds);
+      EXPECT_GT(curve[i].simplices, curve[i - 1].simplices);
+      EXPECT_LE(curve[i].furthest, curve[i - 1].furthest);
+    }
+    // What the last record says of an earlier hull holds for the one returned.
+    EXPECT_LE(hull.max_outside_gauge, curve.back().furthest * (1.0 + 1e-9));
+  }
+}
+
+TEST(LimitsLaw, AnEndLaterGivesANarrowerHull) {
+  const PointSet set = sphere(3000, 7);
+  double last_width = HUGE_VAL, last_gauge = HUGE_VAL;
+  for (const std::uint64_t limit : {200U, 2000U, 20'000U, 200'000U}) {
+    const Hull hull = hull_of(set, {.limits = {.max_facets = limit}});
+    EXPECT_LT(hull.max_outside_gauge, last_gauge) << limit;
+    EXPECT_LT(hull.max_facet_width, last_width) << limit;
+    last_gauge = hull.max_outside_gauge;
+    last_width = hull.max_facet_width;
+  }
 }
 
 TEST(LimitsExample, MemoryEndsGrowth) {

@@ -5,6 +5,7 @@
 
 #include "tests/io/io_test_support.h"
 #include "tools/halfspace_reader.h"
+#include "tools/output_file.h"
 
 namespace ndhull {
 namespace {
@@ -23,6 +24,21 @@ TEST(NpyExample, Float64AndFloat32AreViewsOfTheFile) {
       read_points(scratch.write("b.npy", npy_bytes<float>("<f4", kShape, {1, 2, 3, 4, 5, 6})));
   EXPECT_EQ(floats.view().type, ScalarType::kFloat32);
   EXPECT_EQ(rows_of(floats.view()), kRows);
+}
+
+TEST(NpyDeathTest, AFileThatIsCutWhileItIsReadEndsWithOneLine) {
+  const Scratch scratch;
+  const Values values(1 << 16, 1.0);
+  const std::string path = scratch.write("a.npy", npy_bytes<double>("<f8", {1 << 15, 2}, values));
+  const auto read_behind_the_end = [&] {
+    const PointFile file = read_points(path);
+    const OutputFile begun(scratch.path("out.txt"));
+    std::filesystem::resize_file(path, 100);
+    ::exit(file.view().at(30000, 0) == 1.0 ? 7 : 8);
+  };
+  EXPECT_EXIT(read_behind_the_end(), ::testing::ExitedWithCode(1),
+              "^ndhull: truncated: .*a.npy: found .*\n$");
+  EXPECT_EQ(scratch.file_count(), 1U) << "the file begun is gone";
 }
 
 TEST(NpyExample, FortranOrderIsReadThroughStrides) {

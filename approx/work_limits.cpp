@@ -1,0 +1,89 @@
+#include "approx/work_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ndhull {
+namespace {
+
+using Clock = WorkLimits::Clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Shares of the seconds that growth spent for each simplex it made, all but those for points. Sphere points
+// in 8-d and 10-d, with 140 to 300 vertices: 0.3 to 0.5 of it for each simplex that stays, and one product of
+// a plane with a vertex 1 / 3500 to 1 / 8000 for each dimension.
+constexpr double kPlainShare = 0.4;
+constexpr double kSharePerProduct = 1.0 / 5000.0;
+/// Coplanar merging, where points were shifted: 9-d and 10-d cubes.
+constexpr double kMergeShare = 3.0;
+/// Slabs, of an approximate hull.
+constexpr double kCoverShare = 10.0;
+/// Points that are located to learn what that costs.
+constexpr std::size_t kSampledPoints = 64;
+
+/// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
+/// determinant, offsets, widths, area and own id.
+constexpr std::uint64_t kFacetBytes = 5 + 4 + 8 + 32 + 4;
+/// [bytes] of a simplex for the slabs that hold it: measured, 154 on 8-d gaussian points.
+constexpr std::uint64_t kCoverBytes = 160;
+/// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
+constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
+
+}  // namespace
+
+std::uint64_t WorkLimits::most_rows(std::size_t rank, std::size_t dimension,
+                                    std::uint64_t point_bytes) const {
+  if (limits_.max_memory_bytes == 0) return 0;
+  // Of flat data the normals are longer than the planes and do not take their place.
+  const std::uint64_t normal_bytes = rank == dimension ? 0 : 8 * dimension;
+  const std::uint64_t row_bytes = 16 * rank + normal_bytes + kFacetBytes + (is_exact_ ? 0 : kCoverBytes);
+  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.max_memory_bytes / 8);
+  const std::uint64_t used = point_bytes + whole_pages;
+  const std::uint64_t left = limits_.max_memory_bytes > used ? limits_.max_memory_bytes - used : 0;
+  return std::max<std::uint64_t>(1, left / row_bytes);
+}
+
+double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }
+
+double WorkLimits::seconds_per_created(const GrowthWork& work) {
+  const GrowthCounters& counters = work.counters;
+  const double seconds = counters.seconds_visible + counters.seconds_cone + counters.seconds_match;
+  return seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.created));
+}
+
+double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
+  const std::uint64_t rows = work.complex.row_count - work.free_count;
+  if (rows >= 2 * sampled_at_) {
+    sampled_at_ = rows;
+    std::vector<PointId> sample;
+    const std::size_t step = std::max<std::size_t>(1, work.point_count / kSampledPoints);
+    for (std::size_t id = 0; id < work.point_count; id += step)
+      sample.push_back(PointId{static_cast<std::uint32_t>(id)});
+    const Clock::time_point begin = Clock::now();
+    try_inside(work.complex, work.points, ball, sample);
+    seconds_per_point_ = seconds_since(begin) / static_cast<double>(sample.size());
+  }
+  const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
+  double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
+  if (work.counters.shifted > 0) share += kMergeShare;
+  if (!is_exact_) share += kCoverShare;
+  return static_cast<double>(rows) * share * seconds_per_created(work) +
+         static_cast<double>(points) * seconds_per_point_;
+}
+
+bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
+  if (limits_.max_seconds <= 0.0) return false;
+  const double left = seconds_left();
+  return left <= 0.0 || finish_seconds(work, ball, points) >= left;
+}
+
+double WorkLimits::affordable_products(const GrowthWork& work) const {
+  if (limits_.max_seconds <= 0.0) return HUGE_VAL;
+  return std::max(0.0, 0.3 * seconds_left()) / (kSharePerProduct * seconds_per_created(work));
+}
+
+}  // namespace ndhull

@@ -1,0 +1,49 @@
+// When growth has to end so that what follows it keeps the limits too: certificate, merging, the facet table.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "approx/hull.h"
+#include "core/growth.h"
+#include "core/membership.h"
+
+namespace ndhull {
+
+/// Foresees what a hull will need after growth, from what growth needed so far.
+///
+/// Time    Each simplex costs some share of what making it did; the shares were measured in 5-d to 10-d. What
+/// a
+///         point costs is measured on a few points whenever the hull has doubled.
+/// Memory  Counted, not measured: tables of growth, then of facets, and the points.
+class WorkLimits {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `start`: of the clock that max_seconds limits. `is_exact`: no facets are merged for a width.
+  WorkLimits(const Limits& limits, Clock::time_point start, bool is_exact)
+      : limits_(limits), start_(start), is_exact_(is_exact) {}
+
+  /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
+  /// of the points.
+  std::uint64_t most_rows(std::size_t rank, std::size_t dimension, std::uint64_t point_bytes) const;
+  /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
+  /// inside.
+  bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit.
+  double affordable_products(const GrowthWork& work) const;
+
+ private:
+  double seconds_left() const;
+  double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  static double seconds_per_created(const GrowthWork& work);
+
+  Limits limits_;
+  Clock::time_point start_;
+  bool is_exact_;
+  std::uint64_t sampled_at_ = 0;  // rows when points were sampled last
+  double seconds_per_point_ = 0.0;
+};
+
+}  // namespace ndhull
