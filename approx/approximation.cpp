@@ -9,6 +9,7 @@
 #include "approx/boundedness.h"
 #include "approx/cluster_merge.h"
 #include "approx/merge_rule.h"
+#include "approx/outside_points.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -34,9 +35,6 @@ constexpr double kGrowthShareAtMost = 0.75;
 constexpr std::uint64_t kManySimplices = 250'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
-/// A point that is less than W above the simplex it lies over may be this much more above another one. Taking
-/// those in as well costs 2.3 times the facets on 10^5 sphere points in 8-d with W 0.3.
-constexpr double kOutsideSlack = 1.045;
 /// As many points left out are all seen by the fits; of more, the furthest over each simplex.
 constexpr std::size_t kFewLeftOut = 4096;
 /// Facets from which on neighbours are not tried again for what fits into one slab.
@@ -63,13 +61,18 @@ FacetClusters Approximation::run() {
   return accuracy_.merges_neighbours() ? run_merging() : FacetClusters{};
 }
 
+/// Where the points left out are, to a twentieth of what growth left out.
+void Approximation::locate_left_out(double outside_width) {
+  growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
+}
+
 // Points above one simplex by less than W can be above another, further from the centre, by more.
 void Approximation::grow_outside_width() {
   for (int round = 0; round < kRounds; ++round) {
     const bool finished = growth_.grow_to(lengths_.outside_width, 0, 0.0);
-    growth_.locate_left_out();
+    locate_left_out(lengths_.outside_width);
     if (!finished) break;
-    if (!put_back_above(lengths_.outside_width)) break;
+    if (!put_back_above(growth_, lengths_.outside_width)) break;
   }
   hull_.chosen.outside_width = lengths_.outside_width;
 }
@@ -88,7 +91,7 @@ FacetClusters Approximation::run_merging() {
   for (int round = 0; round < kRounds; ++round) {
     make_space(true);
     const SimplexRule simplex_rule(growth_.work().complex, *space_, rule);
-    SlabCover cover(growth_.work().complex, *space_, &simplex_rule);
+    SlabCover cover(growth_.work().complex, *space_, is_convex(), &simplex_rule);
     covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{});
     counts = merge_clusters(growth_.work().complex, *space_, rule, covering);
     if (!keeps_hull(covering)) {
@@ -104,55 +107,6 @@ FacetClusters Approximation::run_merging() {
   hull_.chosen.merges = counts.merges;
   hull_.chosen.refused_merges = counts.refused;
   return clusters_of(covering, *space_);
-}
-
-/// Puts points back that are more than `width` above any simplex; false when there are none.
-bool Approximation::put_back_above(double width) {
-  const SimplicialComplex& complex = growth_.work().complex;
-  const std::size_t rank = complex.rank;
-  struct Height {  // of a simplex's plane above the centre: a gauge times this is a distance
-    double height;
-    std::uint32_t row;
-  };
-  std::vector<Height> heights;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    if (complex.state[row] == SimplexState::kLive)
-      heights.push_back({height_above(growth_.work(), row, 1.0), row});
-  }
-  std::sort(heights.begin(), heights.end(), [](const Height& a, const Height& b) {
-    return a.height != b.height ? a.height > b.height : a.row < b.row;
-  });
-  std::vector<double> planes(heights.size() * rank);
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    std::copy_n(complex.plane(SimplexId{heights[i].row}).data(), rank, planes.data() + i * rank);
-  std::vector<LocatedPoint> above(growth_.left_out().size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, above.size(), 256), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p != range.end(); ++p) {
-      const LocatedPoint& point = growth_.left_out()[p];
-      const double* y = growth_.coordinates() + std::size_t{point.point.value} * rank;
-      double best = width;
-      // No plane sees the point at a larger gauge than the one it was located over.
-      for (std::size_t i = 0; i < heights.size() && heights[i].height * point.gauge > best; ++i) {
-        double gauge = -1.0;
-        for (std::size_t k = 0; k < rank; ++k) gauge += planes[i * rank + k] * y[k];
-        if (gauge * heights[i].height <= best) continue;
-        best = gauge * heights[i].height;
-        above[p] = {point.point, SimplexId{heights[i].row}, gauge};
-      }
-    }
-  });
-  std::erase_if(above, [](const LocatedPoint& point) { return !point.point.valid(); });
-  if (above.empty()) return false;
-  // The furthest alone: the simplices that they bring may well be all that the others need.
-  double worst = 0.0;
-  const auto height = [&](const LocatedPoint& point) {
-    return height_above(growth_.work(), point.simplex.value, point.gauge);
-  };
-  for (const LocatedPoint& point : above) worst = std::max(worst, height(point));
-  if (worst <= kOutsideSlack * width) return false;
-  std::erase_if(above, [&](const LocatedPoint& point) { return height(point) < 0.5 * (width + worst); });
-  growth_.put_back(above);
-  return true;
 }
 
 /// The space of fits: vertices; points outside that reach furthest, one a simplex at most; those met before.
@@ -267,7 +221,7 @@ bool Approximation::keeps_hull(const Covering& covering) const {
 }
 
 Covering Approximation::cover_width(double width, const CoverEffort& effort) {
-  SlabCover cover(growth_.work().complex, *space_);
+  SlabCover cover(growth_.work().complex, *space_, is_convex());
   Covering covering = cover.cover(width, effort);
   while (!keeps_hull(covering)) {
     width *= 0.75;
@@ -297,7 +251,7 @@ FacetClusters Approximation::run_width() {
     const bool is_last = round == kRounds;
     const std::uint64_t enough = lengths_.outside_width > 0.0 || round > 4 ? 0 : kManySimplices;
     growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
-    growth_.locate_left_out();
+    locate_left_out(outside_width);
     make_space(true);
     covering = cover_width(slab, effort);
     const std::vector<double> widths = true_widths(covering);
@@ -307,7 +261,7 @@ FacetClusters Approximation::run_width() {
     slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
     if (round % 2 == 1) {  // more growth: the simplices themselves may be too wide
       outside_width *= 0.7;
-      put_back_above(outside_width);
+      put_back_above(growth_, outside_width);
     }
   }
   hull_.chosen.outside_width = outside_width;
@@ -317,7 +271,7 @@ FacetClusters Approximation::run_width() {
 /// The least width found that needs at most `count` facets. The number falls like a power of the width, about
 /// the (rank-1)/2-th where the hull is round: each guess uses the two nearest.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width) {
-  SlabCover cover(growth_.work().complex, *space_);
+  SlabCover cover(growth_.work().complex, *space_, is_convex());
   const double power = 2.0 / (static_cast<double>(space_->rank()) - 1.0);
   const double wanted = std::log(static_cast<double>(count));
   struct Trial {
@@ -372,7 +326,7 @@ FacetClusters Approximation::run_count() {
   } else if (outside_width > 0.0 && lengths_.outside_width > 0.0) {
     growth_.grow_to(outside_width, 0, HUGE_VAL);
   }
-  growth_.locate_left_out();
+  locate_left_out(outside_width);
   make_space(true);
   Covering best = cover_count(count, quick, width);
   double best_width = HUGE_VAL;

@@ -32,10 +32,14 @@ class Approximation {
   void make_space(bool with_left_out);
   Covering cover_width(double width, const CoverEffort& effort);
   Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width);
+  void locate_left_out(double outside_width);
+  /// No point of the space is above any simplex's plane.
+  bool is_convex() const {
+    return space_->vertex_count() == space_->table().count() && growth_.work().counters.shifted == 0;
+  }
   bool keeps_hull(const Covering& covering) const;
   std::vector<double> true_widths(const Covering& covering);
   void add_offenders(const Covering& covering, const std::vector<double>& widths, double width);
-  bool put_back_above(double width);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();

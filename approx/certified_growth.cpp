@@ -129,7 +129,8 @@ void CertifiedGrowth::grow_exactly() {
     phase_start = Clock::now();
     tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =
-        prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all);
+        prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), work_.options.shift,
+                     searched_all);
     const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && repair(located);
     if (!repaired) choose_certificate_points(located);
     seconds(Phase::kCertify) += seconds_since(phase_start);
@@ -153,12 +154,14 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
   return stop == GrowthStop::kNoOutsidePoints;
 }
 
-void CertifiedGrowth::locate_left_out() {
+void CertifiedGrowth::locate_left_out(double useful_slack) {
   const Clock::time_point begin = Clock::now();
   std::uint64_t searched_all = 0;
   tell(Phase::kCertify, work_.points_outside, furthest_height());
-  choose_certificate_points(
-      prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), searched_all));
+  // What is left out on purpose is not near enough to the hull to be proven outside by rounding and no more.
+  const double useful = std::max(work_.options.shift, useful_slack);
+  choose_certificate_points(prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(),
+                                         useful, searched_all));
   seconds(Phase::kCertify) += seconds_since(begin);
   report_counters();
 }

@@ -38,7 +38,8 @@ class CertifiedGrowth {
   bool grow_to(double outside_width, std::uint64_t enough_rows, double enough_height);
 
   /// Proves for all points that are no vertices where they are; what is not well inside becomes left_out().
-  void locate_left_out();
+  /// Gauges may be this much too large. [ratio]
+  void locate_left_out(double useful_slack);
   /// Puts these points, which are above these simplices, back into outside sets.
   void put_back(std::span<const LocatedPoint> points);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <queue>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace ndhull {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+/// Turning a plane halves the width of a union at best: what is this many times too wide is not turned.
+constexpr double kHopeless = 2.0;
 constexpr unsigned kTrialSteps = 6;   // of the fit when a pair is judged
 constexpr unsigned kMergeSteps = 16;  // when it is merged
 
@@ -23,7 +26,7 @@ class Merging {
     make_clusters();
     for (std::uint32_t id = 0; id < clusters_.size(); ++id) {
       for (const std::uint32_t other : clusters_[id].neighbours)
-        if (id < other) offer(id, other);
+        if (id < other) announce(id, other);
     }
     while (!offers_.empty() && live_ > rule_.least_facets) {
       const Offer best = offers_.top();
@@ -46,6 +49,7 @@ class Merging {
   struct Offer {
     double width;
     std::uint32_t a, b, version_a, version_b;
+    bool is_fitted;
     bool operator<(const Offer& other) const {
       if (width != other.width) return width > other.width;
       return a != other.a ? a > other.a : b > other.b;
@@ -58,24 +62,34 @@ class Merging {
   }
 
   void make_clusters() {
-    clusters_.resize(covering_.planes.size());
-    live_ = clusters_.size();
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
-      const std::uint32_t id = covering_.facet_of[row];
-      if (id == kNone) continue;
-      for (const PointId point : complex_.vertices(SimplexId{row}))
-        clusters_[id].vertices.push_back(space_.row_of(point));
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{row})) {
-        const std::uint32_t other = covering_.facet_of[neighbour.value];
-        if (other != id) clusters_[id].neighbours.push_back(other);
-      }
-    }
-    for (std::size_t id = 0; id < clusters_.size(); ++id) {
+    const std::size_t count = covering_.planes.size();
+    clusters_.resize(count);
+    live_ = count;
+    std::vector<std::uint32_t> begin(count + 1, 0), rows(complex_.row_count);
+    for (const std::uint32_t id : covering_.facet_of)
+      if (id != kNone) ++begin[id + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
+      if (covering_.facet_of[row] != kNone) rows[at[covering_.facet_of[row]]++] = row;
+    std::vector<std::uint32_t> vertex_seen(space_.table().count(), kNone), facet_seen(count, kNone);
+    const auto add = [](std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& seen,
+                        std::uint32_t entry, std::uint32_t id) {
+      if (seen[entry] == id) return;
+      seen[entry] = id;
+      list.push_back(entry);
+    };
+    for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
-      for (std::vector<std::uint32_t>* list : {&cluster.vertices, &cluster.neighbours}) {
-        std::sort(list->begin(), list->end());
-        list->erase(std::unique(list->begin(), list->end()), list->end());
+      facet_seen[id] = id;
+      for (std::uint32_t i = begin[id]; i < begin[id + 1]; ++i) {
+        for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
+          add(cluster.vertices, vertex_seen, space_.row_of(point), id);
+        for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))
+          add(cluster.neighbours, facet_seen, covering_.facet_of[neighbour.value], id);
       }
+      std::sort(cluster.vertices.begin(), cluster.vertices.end());
+      std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
       cluster.plane = measure_plane(space_, covering_.planes[id].normal, cluster.vertices, work_);
       cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
     }
@@ -85,41 +99,55 @@ class Merging {
     return rule_.wants(a.plane, a.centrum, b.plane, b.centrum);
   }
 
-  /// The plane of the union: fitted from the normals' mean, weighted by the number of vertices.
-  FittedPlane fit_union(const Cluster& a, const Cluster& b, unsigned steps) {
+  /// The mean of the normals, weighted by the number of vertices, as a plane of the union (united_).
+  FittedPlane mean_plane(const Cluster& a, const Cluster& b) {
     united_.clear();
     std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
                    std::back_inserter(united_));
-    std::vector<double> normal(space_.rank());
+    normal_.resize(space_.rank());
     double length_sq = 0.0;
-    for (std::size_t k = 0; k < normal.size(); ++k) {
-      normal[k] = static_cast<double>(a.vertices.size()) * a.plane.normal[k] +
-                  static_cast<double>(b.vertices.size()) * b.plane.normal[k];
-      length_sq += normal[k] * normal[k];
+    for (std::size_t k = 0; k < normal_.size(); ++k) {
+      normal_[k] = static_cast<double>(a.vertices.size()) * a.plane.normal[k] +
+                   static_cast<double>(b.vertices.size()) * b.plane.normal[k];
+      length_sq += normal_[k] * normal_[k];
     }
-    if (!(length_sq > 0.0)) normal = a.plane.normal, length_sq = 1.0;
-    for (double& entry : normal) entry /= std::sqrt(length_sq);
-    const FittedPlane start = measure_plane(space_, normal, united_, work_);
-    return narrow_plane(space_, start, united_, steps, work_);
+    if (!(length_sq > 0.0)) normal_ = a.plane.normal, length_sq = 1.0;
+    for (double& entry : normal_) entry /= std::sqrt(length_sq);
+    return measure_plane(space_, normal_, united_, work_);
   }
 
+  /// Puts the pair into the queue with a width that the union is not narrower than, to be looked at when its
+  /// turn comes. Most pairs are gone by then.
+  void announce(std::uint32_t a, std::uint32_t b) {
+    const Cluster& first = clusters_[a];
+    const Cluster& second = clusters_[b];
+    if (!is_wanted(first, second)) return;
+    const double least = std::max(first.plane.width(), second.plane.width());
+    offers_.push({least, a, b, first.version, second.version, false});
+  }
+
+  /// The same with the width of a fit.
   void offer(std::uint32_t a, std::uint32_t b) {
     const Cluster& first = clusters_[a];
     const Cluster& second = clusters_[b];
     if (!is_wanted(first, second)) return;
-    const double width = fit_union(first, second, kTrialSteps).width();
-    if (width <= rule_.width_cap) offers_.push({width, a, b, first.version, second.version});
+    const FittedPlane start = mean_plane(first, second);
+    if (start.width() > kHopeless * rule_.width_cap) return;
+    const double width = turn_among_near(space_, start, united_, kTrialSteps, work_);
+    if (width <= rule_.width_cap) offers_.push({width, a, b, first.version, second.version, true});
   }
 
   void take(const Offer& best) {
     if (clusters_[best.a].joined != kNone || clusters_[best.b].joined != kNone) return;
     Cluster& into = clusters_[best.a];
     Cluster& from = clusters_[best.b];
-    if (into.version != best.version_a || from.version != best.version_b) {
-      offer(best.a, best.b);  // one of them has grown since
+    if (into.version != best.version_a || from.version != best.version_b) return;  // announced anew since
+    if (!best.is_fitted) {
+      offer(best.a, best.b);
       return;
     }
-    FittedPlane plane = fit_union(into, from, kMergeSteps);
+    const FittedPlane start = mean_plane(into, from);
+    FittedPlane plane = narrow_plane(space_, start, united_, kMergeSteps, work_);
     if (plane.width() > rule_.width_cap) return;
     ++counts_.merges;
     --live_;
@@ -135,9 +163,7 @@ class Merging {
     into.centrum = centrum_on_plane(space_, into.vertices, into.plane);
     for (const std::uint32_t id : into.neighbours) {
       rename(clusters_[id].neighbours, best.b, best.a);
-      // Pairs with a wait in the queue under an old version, unless they were not wanted, or too wide for
-      // ever.
-      offer(std::min(best.a, id), std::max(best.a, id));
+      announce(std::min(best.a, id), std::max(best.a, id));
     }
     from =
         Cluster{.plane = {}, .vertices = {}, .neighbours = {}, .centrum = {}, .version = 0, .joined = best.a};
@@ -183,6 +209,7 @@ class Merging {
   std::size_t live_ = 0;
   std::priority_queue<Offer> offers_;
   std::vector<std::uint32_t> united_;
+  std::vector<double> normal_;
   PlaneFitWork work_;
   MergeCounts counts_;
 };

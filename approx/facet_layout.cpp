@@ -10,11 +10,8 @@ namespace {
 constexpr std::uint32_t kNone = FacetId::kNone;
 
 void permute_values(std::span<double> values, std::span<const std::uint32_t> old_of_new) {
-  std::vector<std::pair<std::uint32_t, double>> moved;
-  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
-    if (old_of_new[row] != row) moved.emplace_back(row, values[old_of_new[row]]);
-  }
-  for (const auto& [row, value] : moved) values[row] = value;
+  const std::vector<double> old(values.begin(), values.end());
+  for (std::size_t row = 0; row < old_of_new.size(); ++row) values[row] = old[old_of_new[row]];
 }
 
 /// Simplices of merged facets, facet by facet, and those that have a ridge with one.
@@ -29,15 +26,19 @@ MergedRows find_merged_rows(const SimplicialComplex& complex, const FacetCluster
   MergedRows rows;
   rows.is_regular.assign(count, 1);
   std::vector<std::uint32_t> place_of(clusters.count, kNone);
+  std::vector<std::uint32_t> begin;  // of each cluster's simplices, in that order
+  std::size_t merged_count = 0;
   for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
     const std::uint32_t cluster = clusters.cluster_of[simplex];
     if (cluster == kNone) continue;
-    rows.merged.push_back(simplex);
+    ++merged_count;
     rows.is_regular[simplex] = 0;
     if (place_of[cluster] == kNone) {
       place_of[cluster] = static_cast<std::uint32_t>(rows.cluster_order.size());
       rows.cluster_order.push_back(cluster);
+      begin.push_back(0);
     }
+    ++begin[place_of[cluster]];
     for (const SimplexId neighbour : complex.neighbours(SimplexId{simplex})) {
       if (clusters.cluster_of[neighbour.value] != kNone || !rows.is_regular[neighbour.value]) continue;
       rows.is_regular[neighbour.value] = 0;
@@ -45,9 +46,12 @@ MergedRows find_merged_rows(const SimplicialComplex& complex, const FacetCluster
     }
   }
   std::sort(rows.beside.begin(), rows.beside.end());
-  std::stable_sort(rows.merged.begin(), rows.merged.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return place_of[clusters.cluster_of[a]] < place_of[clusters.cluster_of[b]];
-  });
+  std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+  rows.merged.resize(merged_count);
+  for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
+    const std::uint32_t cluster = clusters.cluster_of[simplex];
+    if (cluster != kNone) rows.merged[begin[place_of[cluster]]++] = simplex;
+  }
   return rows;
 }
 

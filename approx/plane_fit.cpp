@@ -52,8 +52,8 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
   return plane;
 }
 
-FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
-                         std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
+double turn_among_near(const WidthSpace& space, const FittedPlane& start,
+                       std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
   const std::size_t rank = space.rank();
   work.near.clear();
   space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
@@ -69,7 +69,7 @@ FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
   work.products.resize(std::max(work.near_table.padded_count(), work.facet_table.padded_count()));
   work.trial.assign(start.normal.begin(), start.normal.end());
   work.next.resize(rank);
-  std::vector<double> best_normal = work.trial;
+  work.best = work.trial;
   ExtremePair pair = find_near_extremes(work, work.trial);
   double best_width = pair.width();
   double step = 0.25;  // of the way to width 0, were the width linear
@@ -90,12 +90,18 @@ FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
     pair = find_near_extremes(work, work.trial);
     if (pair.width() < best_width) {
       best_width = pair.width();
-      best_normal = work.trial;
+      work.best = work.trial;
     } else {
       step *= 0.9;
     }
   }
-  FittedPlane turned = measure_plane(space, best_normal, vertices, work);
+  return best_width;
+}
+
+FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
+                         std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
+  turn_among_near(space, start, vertices, steps, work);
+  FittedPlane turned = measure_plane(space, work.best, vertices, work);
   if (turned.width() <= start.width()) return turned;
   return measure_plane(space, start.normal, vertices, work);
 }

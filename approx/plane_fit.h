@@ -23,7 +23,7 @@ struct FittedPlane {
 struct PlaneFitWork {
   std::vector<double> dots;         ///< of the last measured direction with all points
   std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first
-  std::vector<double> rows, products, trial, next;
+  std::vector<double> rows, products, trial, next, best;
   SupportTable near_table, facet_table;
   std::uint64_t evaluations = 0;  ///< products of one direction with all points, ever
 };
@@ -32,17 +32,22 @@ struct PlaneFitWork {
 FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
                           std::span<const std::uint32_t> vertices, PlaneFitWork& work);
 
-/// Turns `start` towards less width. work.dots must be those of start.
+/// Turns `start` towards less width, looking only at points within a width below it, the highest if they are
+/// very many. work.dots must be those of start. Returns the width among those points, which can be less than
+/// over all points, of work.best.
 ///
 /// Method    The width of a direction n is max n.x over all points minus min n.v over the facet's vertices, a
 ///           convex function; x - v of the extreme pair, without its part along n, is a subgradient. Steps
-///           along it, shorter after each that does not help; the best direction seen is taken. The steps
-///           look only at points within a width below the start's plane, the highest if they are very many;
-///           the end is measured with all, and the start returned if that is no wider. work.dots are those of
-///           what is returned.
+///           along it, shorter after each that does not help; the best direction seen is taken.
 /// Not promised  the least width there is.
-/// Cost      two products of a direction with all points, and `steps` with the near ones.
+/// Cost      `steps` products of a direction with the near points.
 /// Source    Shor. Minimization Methods for Non-Differentiable Functions. 1985 (subgradient steps).
+double turn_among_near(const WidthSpace& space, const FittedPlane& start,
+                       std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work);
+
+/// The plane so turned, measured with all points, or `start` if that is no wider. work.dots are those of what
+/// is returned.
+/// Cost      one or two products of a direction with all points more.
 FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
                          std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work);
 

@@ -18,32 +18,24 @@
 #include <vector>
 
 #include "approx/covering.h"
-#include "approx/merge_rule.h"
-#include "approx/plane_fit.h"
+#include "approx/slab_growth.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
 
-/// How hard to look for few facets.
-struct CoverEffort {
-  unsigned choices = 1;  ///< slabs that each simplex is in before slabs are chosen
-  unsigned refits = 1;   ///< times that a slab is turned to its simplices and grown again
-  unsigned fit_steps = 12;
-  unsigned final_fit_steps = 64;
-};
-
 class SlabCover {
  public:
-  /// The complex may hold free rows. `rule`: which simplices may be in one slab at all; null: all that fit.
-  /// All must outlive this.
-  SlabCover(const SimplicialComplex& complex, const WidthSpace& space, const SimplexRule* rule = nullptr);
+  /// The complex may hold free rows. `is_convex`: no point of the space is above any simplex's plane by more
+  /// than rounding. `rule`: which simplices may be in one slab at all; null: all that fit. All must outlive
+  /// this.
+  SlabCover(const SimplicialComplex& complex, const WidthSpace& space, bool is_convex,
+            const SimplexRule* rule = nullptr);
 
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
   /// wider becomes a facet all the same. The same for any number of threads.
-  /// Cost  each simplex is met some 3 to 5 times, rank checks of rank bytes each; two products of a direction
-  ///       with all points of the space for each slab tried and each time it is turned. 4 bytes a row for
-  ///       each thread.
+  /// Cost  growing the slabs (slab_growth.h), which hold each simplex 1.5 to 5 times. 4 bytes a row for each
+  ///       thread, 8 for each place in a slab.
   Covering cover(double width, const CoverEffort& effort);
 
   std::size_t live_count() const { return live_count_; }
@@ -53,45 +45,27 @@ class SlabCover {
     FittedPlane plane;
     std::size_t begin = 0, end = 0;  // of members_
   };
-  /// What one thread needs to grow a slab.
-  struct Scratch {
-    explicit Scratch(const SlabCover& cover);
-    PlaneFitWork fit;
-    std::vector<std::uint8_t> point_in_slab;  // per point
-    std::vector<std::uint32_t> marked;        // rows of the space that are set there
-    std::vector<std::uint32_t> stamp;         // per row of the complex: last flood that met it
-    std::vector<std::uint32_t> vertex_stamp;  // per row of the space
-    std::uint32_t flood = 0, vertex_pass = 0;
-    std::vector<std::uint32_t> vertices, grown;
-  };
-  struct GrownSlab {
-    std::uint32_t seed = 0;
-    FittedPlane plane;
-    std::vector<std::uint32_t> members;
-  };
+  using Members = std::span<const std::uint32_t>;
 
-  void grow_slab(GrownSlab& slab, double width, const CoverEffort& effort, Scratch& scratch) const;
   void add_slabs(std::span<GrownSlab> slabs, double width, const CoverEffort& effort);
-  bool may_extend(std::uint32_t seed, const double* normal, double width) const;
-  void flood(std::uint32_t seed, const FittedPlane& plane, double width, Scratch& scratch) const;
-  std::span<const std::uint32_t> vertices_of(std::span<const std::uint32_t> members, Scratch& scratch) const;
   std::vector<std::uint32_t> choose_slabs();
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
-  void fit_facets(Covering& covering, double width, const CoverEffort& effort);
+  void measure_facets(Covering& covering, double width, const CoverEffort& effort);
+  void settle(Members members, double width, const CoverEffort& effort, FittedPlane& plane);
   void gather_strays(Covering& covering, double width);
-  double low_of(std::span<const std::uint32_t> simplices, const double* dots) const;
-  std::span<const std::uint32_t> members_of(const Slab& slab) const {
-    return {members_.data() + slab.begin, slab.end - slab.begin};
-  }
+  double depth_below(FittedPlane& plane, Members simplices);
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
-  const SimplexRule* rule_;
-  std::size_t live_count_ = 0, point_count_ = 0;
-  tbb::enumerable_thread_specific<Scratch> scratch_;
+  bool is_convex_;
+  SlabGrower grower_;
+  std::size_t live_count_ = 0;
+  tbb::enumerable_thread_specific<SlabScratch> scratch_;
   std::vector<Slab> slabs_;
   std::vector<std::uint32_t> members_;  // of all slabs
+  std::vector<float> depths_;           // of each member in its slab
   std::vector<std::uint8_t> hits_;      // per row: slabs it is in, at most 255
+  std::vector<float> depth_of_;         // per row: in the facet it was assigned to
 };
 
 }  // namespace ndhull

@@ -188,13 +188,10 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// Slack in a proof that a better simplex need not save. One shift of growth.
-constexpr double kUseful = 1e-12;
+/// Products so near the highest may belong to the simplex that the ray leaves through. One shift of growth.
+constexpr double kTied = 1e-12;
 /// Products that looking for better simplices everywhere may cost.
 constexpr double kSearchProducts = 1e10;
-
-/// Is the proof as good as is wanted? Inside, or outside by what it says and no less.
-bool is_settled(const LocatedPoint& located) { return located.gauge <= kUseful || located.slack <= kUseful; }
 
 /// Coordinates of y in the simplex's cone, with the gauge they prove.
 struct ConeCoordinates {
@@ -205,8 +202,17 @@ struct ConeCoordinates {
 
 class Walker {
  public:
-  Walker(const SimplicialComplex& complex, const double* points, const HullBall& ball)
-      : complex_(complex), points_(points), ball_(ball), rank_(static_cast<Eigen::Index>(complex.rank)) {}
+  Walker(const SimplicialComplex& complex, const double* points, const HullBall& ball, double useful)
+      : complex_(complex),
+        points_(points),
+        ball_(ball),
+        useful_(useful),
+        rank_(static_cast<Eigen::Index>(complex.rank)) {}
+
+  /// Is the proof as good as is wanted? Inside, or outside by what it says and no less.
+  bool is_settled(const LocatedPoint& located) const {
+    return located.gauge <= useful_ || located.slack <= useful_;
+  }
 
   /// Walks from the located simplex across the ridge opposite the most negative coordinate. Degenerate
   /// complexes can make that turn in circles, so the steps are bounded and the best simplex is kept.
@@ -231,12 +237,12 @@ class Walker {
     for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
       if (complex_.state[row] != SimplexState::kLive) continue;
       const double product = y.dot(Eigen::Map<const Vector>(complex_.plane(SimplexId{row}).data(), rank_));
-      if (product < best - kUseful) continue;
+      if (product < best - kTied) continue;
       best = std::max(best, product);
       products.emplace_back(product, row);
     }
     for (const auto& [product, row] : products) {
-      if (product < best - kUseful) continue;
+      if (product < best - kTied) continue;
       take_better(located, SimplexId{row}, coordinates_of(located.point, SimplexId{row}));
       if (is_settled(located)) return;
     }
@@ -274,6 +280,7 @@ class Walker {
   const SimplicialComplex& complex_;
   const double* points_;
   HullBall ball_;
+  double useful_;
   Eigen::Index rank_;
 };
 
@@ -323,17 +330,17 @@ void try_inside(const SimplicialComplex& complex, const double* points, const Hu
 }
 
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
-                                       const HullBall& ball, std::span<const PointId> queries,
+                                       const HullBall& ball, std::span<const PointId> queries, double useful,
                                        std::uint64_t& searched_all) {
   std::vector<LocatedPoint> located = try_inside(complex, points, ball, queries);
-  const Walker walker(complex, points, ball);
+  const Walker walker(complex, points, ball, useful);
   for_each_block(located.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (!is_settled(located[i])) walker.walk(located[i]);
+      if (!walker.is_settled(located[i])) walker.walk(located[i]);
   });
   std::vector<std::size_t> unsettled;
   for (std::size_t i = 0; i < located.size(); ++i)
-    if (!is_settled(located[i])) unsettled.push_back(i);
+    if (!walker.is_settled(located[i])) unsettled.push_back(i);
   const double products =
       static_cast<double>(unsettled.size()) * static_cast<double>(complex.row_count * complex.rank);
   if (products > kSearchProducts) return located;

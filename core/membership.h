@@ -38,12 +38,12 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 /// coordinates, then all simplices) and proves its gauge.
 ///
 /// Shapes  points: any number of rows x rank.  Result: one entry a query, in their order.
+/// useful  slack in a proof that is worth looking for a better simplex. [ratio]
 /// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query. Where
-/// walking
-///         ends in a proof with slack all simplices are tried (counted in `searched_all`), unless that would
-///         be more than some 1e10 products in all: then the proofs stay as they are.
+///         walking ends in a proof with slack all simplices are tried (counted in `searched_all`), unless
+///         that would be more than some 1e10 products in all: then the proofs stay as they are.
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
-                                       const HullBall& ball, std::span<const PointId> queries,
+                                       const HullBall& ball, std::span<const PointId> queries, double useful,
                                        std::uint64_t& searched_all);
 
 /// The same with hill climbing alone: what is not proven at once is +inf or far too large.

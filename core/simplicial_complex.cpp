@@ -42,23 +42,34 @@ void compact(SimplicialComplex& complex) {
 }
 
 void permute_rows(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
-  const std::size_t rank = complex.rank;
-  std::vector<std::uint32_t> moved, new_of_old(old_of_new.size()), topology;
-  std::vector<double> planes;
-  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
-    const std::size_t old = old_of_new[row];
-    new_of_old[old] = row;
-    if (old == row) continue;
-    moved.push_back(row);
-    planes.insert(planes.end(), complex.planes.data() + old * rank, complex.planes.data() + (old + 1) * rank);
-    topology.insert(topology.end(), complex.topology.data() + old * 2 * rank,
-                    complex.topology.data() + (old + 1) * 2 * rank);
+  constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
+  const std::size_t rank = complex.rank, count = old_of_new.size();
+  std::vector<std::uint32_t> moved, new_of_old(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    new_of_old[old_of_new[row]] = row;
+    if (old_of_new[row] != row) moved.push_back(row);
   }
+  if (moved.empty()) return;
+  HugeArray<double> planes(moved.size() * rank);
+  HugeArray<std::uint32_t> topology(moved.size() * 2 * rank);
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    std::copy_n(planes.data() + i * rank, rank, complex.planes.data() + moved[i] * rank);
-    std::copy_n(topology.data() + i * 2 * rank, 2 * rank, complex.topology.data() + moved[i] * 2 * rank);
+    const std::size_t next = old_of_new[moved[std::min(i + kAhead, moved.size() - 1)]];
+    __builtin_prefetch(complex.planes.data() + next * rank);
+    __builtin_prefetch(complex.topology.data() + next * 2 * rank);
+    const std::size_t old = old_of_new[moved[i]];
+    std::copy_n(complex.planes.data() + old * rank, rank, planes.data() + i * rank);
+    std::copy_n(complex.topology.data() + old * 2 * rank, 2 * rank, topology.data() + i * 2 * rank);
   }
-  if (!moved.empty()) rename_neighbours(complex, new_of_old);
+  if (moved.size() == count) {
+    complex.planes = std::move(planes);
+    complex.topology = std::move(topology);
+  } else {
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      std::copy_n(planes.data() + i * rank, rank, complex.planes.data() + moved[i] * rank);
+      std::copy_n(topology.data() + i * 2 * rank, 2 * rank, complex.topology.data() + moved[i] * 2 * rank);
+    }
+  }
+  rename_neighbours(complex, new_of_old);
 }
 
 }  // namespace ndhull

@@ -1,0 +1,79 @@
+// One slab: simplices around a seed whose vertices all lie less than a width below one supporting plane.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "approx/merge_rule.h"
+#include "approx/plane_fit.h"
+#include "approx/width_space.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// How hard to look for few facets.
+struct CoverEffort {
+  unsigned choices = 1;  ///< slabs that each simplex is in before slabs are chosen
+  unsigned refits = 1;   ///< times that a slab is turned to its simplices and grown again
+  unsigned fit_steps = 12;
+  unsigned final_fit_steps = 64;
+};
+
+/// A slab as it grew.
+struct GrownSlab {
+  std::uint32_t seed = 0;
+  FittedPlane plane;                   ///< height 0: the seed alone, its own plane, not measured
+  std::vector<std::uint32_t> members;  ///< rows of the complex, the seed first
+  std::vector<float> depths;           ///< [distance] of each below the plane's height, rounded up
+};
+
+/// What one thread needs to grow slabs, and to fit their planes.
+struct SlabScratch {
+  SlabScratch(std::size_t row_count, std::size_t vertex_count)
+      : stamp(row_count, 0), vertex_stamp(vertex_count, 0) {}
+  PlaneFitWork fit;
+  std::vector<std::uint32_t> stamp;         // per row of the complex: last flood that met it
+  std::vector<std::uint32_t> vertex_stamp;  // per row of the space
+  std::uint32_t flood = 0, vertex_pass = 0;
+  std::vector<std::uint32_t> vertices, grown;
+  std::vector<float> depths;
+  std::vector<double> seed_centre;
+};
+
+/// Grows slabs; holds no state but what it was given, so threads may share it.
+class SlabGrower {
+ public:
+  /// `rule`: which simplices may be in one slab at all; null: all that fit. `is_convex`: no point of the
+  /// space is above any simplex's plane by more than rounding. All must outlive this.
+  SlabGrower(const SimplicialComplex& complex, const WidthSpace& space, const SimplexRule* rule,
+             bool is_convex);
+
+  /// Fills `slab` from its seed. Seeds that are wider than `width` alone are slabs of their own.
+  /// Cost  each simplex beside the slab is met once. A product of a direction with all points, two more each
+  ///       time the slab is turned; none for small slabs where the hull is convex.
+  void grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
+
+  /// The different vertices, as rows of the space.
+  std::span<const std::uint32_t> vertices_of(std::span<const std::uint32_t> members,
+                                             SlabScratch& scratch) const;
+
+ private:
+  bool may_extend(std::uint32_t seed, const double* normal, double width) const;
+  void flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const;
+  void flood_from_fitted_plane(GrownSlab& slab, double width, const CoverEffort& effort,
+                               SlabScratch& scratch) const;
+  void measure(FittedPlane& plane, SlabScratch& scratch) const;
+  template <typename DotOf>
+  void flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch,
+             const DotOf& dot_of) const;
+  void flood_measured(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
+
+  const SimplicialComplex& complex_;
+  const WidthSpace& space_;
+  const SimplexRule* rule_;
+  bool is_convex_;
+};
+
+}  // namespace ndhull
