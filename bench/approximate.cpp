@@ -7,29 +7,19 @@
 #include <set>
 #include <vector>
 
+#include "bench/approximate.h"
 #include "bench/approximate_cases.h"
 #include "bench/approximate_tables.h"
 #include "bench/child_process.h"
 #include "bench/commands.h"
 #include "bench/hull_run.h"
 #include "bench/machine.h"
+#include "bench/measure_options.h"
 #include "bench/run_record.h"
 #include "tools/byte_count.h"
 
 namespace ndhull {
 namespace {
-
-struct ApproximateOptions {
-  CaseSelection selection;
-  std::string json_path;
-  std::string qhull_from;
-  std::string widths = "1%,2%,5%,10%,20%";
-  std::string max_memory = "4G";
-  unsigned rounds = 3;
-  double max_seconds = 600.0;
-  bool skip_qhull = false;
-  bool skip_targets = false;
-};
 
 /// Measures, writes down and says what was measured.
 class Bench {
@@ -150,32 +140,43 @@ class Bench {
   std::vector<RunRecord> records_, earlier_;
 };
 
-void run_approximate(const ApproximateOptions& options) {
+std::vector<ApproximateCase> chosen_cases(const ApproximateOptions& options) {
   std::vector<ApproximateCase> cases = all_approximate_cases();
   std::erase_if(cases, [&](const ApproximateCase& approximate) {
     return !options.selection.is_chosen(approximate.name());
   });
+  if (options.skip_slow) {
+    std::erase_if(cases,
+                  [](const ApproximateCase& approximate) { return approximate.input.is_slow_for_qhull(); });
+  }
   if (cases.empty()) options.selection.refuse();
+  return cases;
+}
+
+void run_approximate(const ApproximateOptions& options) {
   if (options.selection.list) {
-    for (const ApproximateCase& approximate : cases) fmt::print("{}\n", approximate.name());
+    for (const ApproximateCase& approximate : chosen_cases(options)) fmt::print("{}\n", approximate.name());
     return;
   }
   fmt::print("{}\none thread; at most {} rounds, one run of Qhull where it takes over {} s\n",
              machine_line(describe_machine()), options.rounds, BenchCase::kSlowSeconds);
+  const std::vector<RunRecord> records = measure_approximate(options);
+  for (const Table& table : approximate_tables(records)) fmt::print("\n{}", table.as_text());
+  throw_if_ndhull_failed(records);
+}
+
+}  // namespace
+
+std::vector<RunRecord> measure_approximate(const ApproximateOptions& options) {
+  const std::vector<ApproximateCase> cases = chosen_cases(options);
   Bench bench(options);
   std::set<std::string> inputs_with_targets;
   for (const ApproximateCase& approximate : cases) {
     const bool is_new = inputs_with_targets.insert(approximate.input.name).second;
     bench.run_case(approximate, is_new && !options.skip_targets);
   }
-  for (const Table& table : approximate_tables(bench.records())) fmt::print("\n{}", table.as_text());
-  for (const RunRecord& record : bench.records()) {
-    if (record.key.engine == "ndhull" && (record.end == "failed" || record.end == "crashed"))
-      throw EngineFailed();
-  }
+  return bench.records();
 }
-
-}  // namespace
 
 void add_approximate_command(CLI::App& app) {
   const auto options = std::make_shared<ApproximateOptions>();
@@ -189,6 +190,8 @@ void add_approximate_command(CLI::App& app) {
   command->add_option(
       "--qhull-from", options->qhull_from,
       "take Qhull's runs from this file, that --json of an earlier run wrote on this machine");
+  command->add_flag("--skip-slow", options->skip_slow,
+                    fmt::format("leave out inputs on which Qhull takes over {} s", BenchCase::kSlowSeconds));
   command->add_flag("--skip-targets", options->skip_targets, "leave out approximate hulls beside exact ones");
   command->add_option("--widths", options->widths, "of these approximate hulls")->capture_default_str();
   command->add_option("--max-seconds", options->max_seconds, "stop a run after this wall clock; 0: never")

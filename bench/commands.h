@@ -11,10 +11,21 @@ struct EngineFailed : std::runtime_error {
   EngineFailed() : std::runtime_error("a run of ndhull failed") {}
 };
 
+/// `all`: sweep, scaling, approximate and their report.
+void add_all_command(CLI::App& app);
 /// `approximate`: approximate hulls of ndhull and Qhull.
 void add_approximate_command(CLI::App& app);
 /// `joggle`: how often joggled input has a precision problem.
 void add_joggle_command(CLI::App& app);
+/// `compare` found something that became worse. Thrown after the tables; the program then ends with 2.
+struct HasRegressed : std::runtime_error {
+  HasRegressed() : std::runtime_error("regressions") {}
+};
+
+/// `compare`: two sets of results.
+void add_compare_command(CLI::App& app);
+/// `counts`: a small fixed set, its work counted.
+void add_counts_command(CLI::App& app);
 /// `peers`: ndhull and Qhull side by side.
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.

@@ -21,10 +21,15 @@ int main(int argc, char** argv) {
   ndhull::add_scaling_command(app);
   ndhull::add_sweep_command(app);
   ndhull::add_report_command(app);
+  ndhull::add_all_command(app);
+  ndhull::add_compare_command(app);
+  ndhull::add_counts_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
+  } catch (const ndhull::HasRegressed&) {
+    return 2;
   } catch (const ndhull::EngineFailed&) {
     return 3;  // said already, in the table
   } catch (const std::exception& error) {

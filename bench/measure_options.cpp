@@ -66,6 +66,7 @@ std::vector<RunRecord> measure_with(const RunPlan& plan, const MeasureOptions& o
   RunLimits limits;
   limits.max_seconds = options.max_seconds;
   limits.max_memory_bytes = parse_byte_count(options.max_memory, "--max-memory");
+  limits.max_repeated_seconds = options.max_repeated_seconds;
   limits.warm_ups = options.warm_ups;
   limits.show_progress = !options.quiet;
   std::vector<RunRecord> earlier;

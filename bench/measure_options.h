@@ -17,6 +17,7 @@ struct MeasureOptions {
   bool resume = false;
   double max_seconds = 60.0;
   std::string max_memory = "4G";
+  double max_repeated_seconds = 10.0;  ///< RunLimits'
   unsigned warm_ups = 1;
   bool quiet = false;
 

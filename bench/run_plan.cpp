@@ -139,7 +139,7 @@ class Measurement {
   std::string smaller_that_failed(const RunRecord& wanted) const {
     for (const RunRecord& record : records_) {
       const bool passed_limit = record.end == "time_limit" || (record.is_done() && !record.is_complete());
-      if (passed_limit && record.key.engine == wanted.key.engine &&
+      if (passed_limit && record.task == wanted.task && record.key.engine == wanted.key.engine &&
           record.key.options == wanted.key.options && record.key.input != wanted.key.input &&
           record.points.contains("family") && wanted.points.contains("family") &&
           record.points.at("family") == wanted.points.at("family") &&

@@ -11,29 +11,17 @@
 #include "bench/machine.h"
 #include "bench/measure_options.h"
 #include "bench/run_plan.h"
+#include "bench/scaling.h"
 #include "bench/scaling_tables.h"
 #include "tools/generate.h"
 
 namespace ndhull {
 namespace {
 
-struct ScalingOptions {
-  std::vector<std::string> families{"sphere", "ball", "gaussian"};
-  std::vector<std::string> engines{"ndhull"};
-  std::vector<std::size_t> counts{250, 500, 1000, 2000, 4000};
-  std::string dimensions = "4-6";
-  std::size_t fixed_count = 100;
-  std::string all_dimensions = "3-9";
-  std::vector<unsigned> threads{0};
-  std::vector<std::uint64_t> seeds{1, 2, 3};
-  unsigned rounds = 1;
-  MeasureOptions measuring;
-};
-
 /// Hulls of seeds 1, 2, ... until the mean's standard error is below 0.5 %, but no more than 2000 and no more
 /// work than some seconds: the same number of seeds on every machine.
 HullRun count_facets(GenerateOptions generate) {
-  constexpr std::uint64_t kMostSeeds = 2000, kMostCreated = 10'000'000;
+  constexpr std::uint64_t kMostSeeds = 2000, kMostCreated = 6'000'000;
   // Of fewer counts the standard error itself is too uncertain to stop by.
   constexpr double kFewestSeeds = 30.0, kWantedError = 0.005;
   HullOptions options;
@@ -75,7 +63,7 @@ class ScalingPlan {
         for (const std::size_t count : options.counts) add(family, dimension, count);
       }
       for (const std::size_t dimension : parse_range(options.all_dimensions)) {
-        add(family, dimension, options.fixed_count);
+        if (!options.counts_only) add(family, dimension, options.fixed_count);
         add_counts(family, dimension, options.fixed_count);
       }
     }
@@ -128,8 +116,14 @@ class ScalingPlan {
   RunPlan plan_;
 };
 
+}  // namespace
+
+RunPlan scaling_plan(const ScalingOptions& options) { return ScalingPlan(options).take(); }
+
+namespace {
+
 void run_scaling(const ScalingOptions& options) {
-  const std::vector<RunRecord> records = measure_with(ScalingPlan(options).take(), options.measuring);
+  const std::vector<RunRecord> records = measure_with(scaling_plan(options), options.measuring);
   fmt::print("{}\n", machine_line(describe_machine()));
   for (const Table& table : scaling_tables(records)) fmt::print("\n{}", table.as_text());
   throw_if_ndhull_failed(records);

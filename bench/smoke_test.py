@@ -7,6 +7,7 @@ smoke_test.py PROGRAM SCRATCH. Nothing here is timed.
 import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -131,6 +132,27 @@ def test_scaling_agrees_with_the_expected_numbers_of_facets():
     # Points on a 4-d sphere: the facets' exponent comes near 1 from above.
     row = next(line for line in table.splitlines() if line.startswith("ndhull, sphere "))
     assert all(0.95 < float(word) < 1.15 for word in row.split()[6:8]), row
+
+
+def test_all_makes_a_folder_with_the_report():
+    folder = SCRATCH / "all"
+    words = ["all", "-o", str(folder), "--dimensions", "3-5", "--points", "40", "--scaling-points", "100,200",
+             "--scaling-dimensions", "4", "--skip-approximate"]  # fmt: skip
+    if shutil.which("gnuplot") is None:
+        run(*words, exit_code=1)
+        print("not done: the page, because gnuplot is not installed")
+    else:
+        run(*words)
+        assert "<svg" in (folder / "report.html").read_text(encoding="utf-8")
+    assert "## Runtime against dimension" in (folder / "report.md").read_text(encoding="utf-8")
+    records = records_of(folder / "sweep.jsonl")
+    seen = {(record["points"]["family"], record["points"]["dimension"]) for record in records}
+    assert seen == {(family, d) for family in ("sphere", "ball", "gaussian", "cube") for d in (3, 4, 5)}, seen
+    options = {(record["engine"], record["options"]) for record in records}
+    assert len(options) == 6 and ("qhull", "W5% C1%") in options, options
+    assert all(record["end"] in ("done", "failed") for record in records)
+    assert all(record["end"] == "done" for record in records if record["engine"] == "ndhull")
+    assert any(record.get("task") == "counts" for record in records_of(folder / "scaling.jsonl"))
 
 
 def test_phases_names_the_phases():

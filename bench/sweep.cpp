@@ -11,25 +11,12 @@
 #include "bench/measure_options.h"
 #include "bench/run_csv.h"
 #include "bench/run_plan.h"
+#include "bench/sweep.h"
 #include "core/error.h"
 #include "tools/generate.h"
 
 namespace ndhull {
 namespace {
-
-struct SweepOptions {
-  std::vector<std::string> families{"sphere", "ball", "gaussian", "cube"};
-  std::vector<std::string> files;
-  std::string dimensions = "3-8";
-  std::vector<std::size_t> counts{100, 1000};
-  std::string option_sets = "exact,width 5%";
-  std::vector<std::string> engines{"ndhull"};
-  std::vector<std::uint64_t> seeds{1};
-  std::vector<unsigned> threads{1};
-  unsigned rounds = 3;
-  bool unit_cube = false;
-  MeasureOptions measuring;
-};
 
 // The same whatever the count: taken whole, once.
 bool is_finite_family(const std::string& family) {
@@ -54,7 +41,9 @@ void add_runs(std::size_t input, const SweepOptions& options, RunPlan& plan) {
   }
 }
 
-RunPlan plan_of(const SweepOptions& options) {
+}  // namespace
+
+RunPlan sweep_plan(const SweepOptions& options) {
   RunPlan plan;
   const auto add = [&](PlannedInput input) {
     input.unit_cube = options.unit_cube;
@@ -79,8 +68,10 @@ RunPlan plan_of(const SweepOptions& options) {
   return plan;
 }
 
+namespace {
+
 void run_sweep(const SweepOptions& options) {
-  const RunPlan plan = plan_of(options);
+  const RunPlan plan = sweep_plan(options);
   const std::vector<RunRecord> records = measure_with(plan, options.measuring);
   fmt::print("{}\n{}", machine_line(describe_machine()), measurement_table("Sweep", records).as_text());
   throw_if_ndhull_failed(records);
