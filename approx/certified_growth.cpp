@@ -75,6 +75,8 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   record_progress(points_left, furthest, rows);
   tell(Phase::kGrowth, points_left, furthest);
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
+  // Once a point was shifted simplices will be merged, which takes memory.
+  work_.options.most_table_rows = limits_.most_rows(work_, frame_.dimension, point_bytes());
   const std::uint64_t to_prove = points_.rows - std::min<std::uint64_t>(points_.rows, proven_count_ + rows);
   return limits_.is_time_up(work_, ball_, to_prove) ? GrowthStop::kTimeLimit : GrowthStop::kNoOutsidePoints;
 }
@@ -109,7 +111,6 @@ void CertifiedGrowth::start() {
   work_.options.seed = options_.seed;
   work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
-  work_.options.most_table_rows = limits_.most_rows(frame_.rank, frame_.dimension, point_bytes());
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
   const Clock::time_point begin = Clock::now();
   ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);

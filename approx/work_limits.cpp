@@ -28,19 +28,25 @@ constexpr std::size_t kSampledPoints = 64;
 /// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
 /// determinant, offsets, widths, area and own id.
 constexpr std::uint64_t kFacetBytes = 5 + 4 + 8 + 32 + 4;
-/// [bytes] of a simplex for the slabs that hold it: measured, 154 on 8-d gaussian points.
-constexpr std::uint64_t kCoverBytes = 160;
+/// [bytes] of a simplex that may be merged: cluster, place, flags; beside them the rows are copied once to get
+/// their order.
+constexpr std::uint64_t kMergeBytes = 64;
+/// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points; the
+/// more the fewer merge.
+constexpr std::uint64_t kCoverBytes = 140;
 /// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
 constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
 
 }  // namespace
 
-std::uint64_t WorkLimits::most_rows(std::size_t rank, std::size_t dimension,
+std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const {
   if (limits_.max_memory_bytes == 0) return 0;
+  std::uint64_t row_bytes = 16 * work.rank + kFacetBytes;
   // Of flat data the normals are longer than the planes and do not take their place.
-  const std::uint64_t normal_bytes = rank == dimension ? 0 : 8 * dimension;
-  const std::uint64_t row_bytes = 16 * rank + normal_bytes + kFacetBytes + (is_exact_ ? 0 : kCoverBytes);
+  if (work.rank != dimension) row_bytes += 8 * dimension;
+  if (!is_exact_ || work.counters.shifted > 0) row_bytes += 16 * work.rank + kMergeBytes;
+  if (!is_exact_) row_bytes += kCoverBytes;
   const std::uint64_t whole_pages = std::min(kPageBytes, limits_.max_memory_bytes / 8);
   const std::uint64_t used = point_bytes + whole_pages;
   const std::uint64_t left = limits_.max_memory_bytes > used ? limits_.max_memory_bytes - used : 0;

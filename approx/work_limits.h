@@ -27,7 +27,7 @@ class WorkLimits {
 
   /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
   /// of the points.
-  std::uint64_t most_rows(std::size_t rank, std::size_t dimension, std::uint64_t point_bytes) const;
+  std::uint64_t most_rows(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
   /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
   /// inside.
   bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
