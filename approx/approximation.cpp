@@ -58,7 +58,7 @@ FacetClusters Approximation::run() {
   if (accuracy_.facets > 0) return run_count();
   if (lengths_.width > 0.0) return run_width();
   grow_outside_width();
-  return accuracy_.merges_neighbours() ? run_merging() : FacetClusters{};
+  return accuracy_.merges_neighbours() && growth_.may_cover() ? run_merging() : FacetClusters{};
 }
 
 /// Where the points left out are, to a twentieth of what growth left out.
@@ -101,7 +101,7 @@ FacetClusters Approximation::run_merging() {
     const std::vector<double> widths = true_widths(covering);
     const std::size_t known = extra_.size();
     add_offenders(covering, widths, cap);
-    if (extra_.size() == known) break;
+    if (extra_.size() == known || growth_.is_late()) break;
   }
   hull_.chosen.width_cap = cap;
   hull_.chosen.merges = counts.merges;
@@ -252,11 +252,12 @@ FacetClusters Approximation::run_width() {
     const std::uint64_t enough = lengths_.outside_width > 0.0 || round > 4 ? 0 : kManySimplices;
     growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
     locate_left_out(outside_width);
+    if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
     covering = cover_width(slab, effort);
     const std::vector<double> widths = true_widths(covering);
     const double widest = *std::max_element(widths.begin(), widths.end());
-    if (widest <= target || is_last || growth_.is_limited()) break;
+    if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
     add_offenders(covering, widths, target);
     slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
     if (round % 2 == 1) {  // more growth: the simplices themselves may be too wide
@@ -280,7 +281,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   std::optional<Trial> few, many;  // nearest with at most, with more than the count
   Covering best;
   double best_width = 0.0, log_width = std::log(start_width);
-  for (int trial = 0; trial < 16; ++trial) {
+  for (int trial = 0; trial < 16 && (trial == 0 || !growth_.is_late()); ++trial) {
     Covering covering = cover.cover(std::exp(log_width), effort);
     const bool is_hull = keeps_hull(covering);
     const double log_count = std::log(static_cast<double>(covering.planes.size()));
@@ -322,7 +323,8 @@ FacetClusters Approximation::run_count() {
     Covering covering = cover_count(count, quick, width);
     if (!covering.planes.empty()) width = hull_.chosen.slab_width;
     outside_width = kGrowthShare * width;
-    if (growth_.furthest_height() > outside_width) growth_.grow_to(outside_width, most, HUGE_VAL);
+    if (growth_.furthest_height() > outside_width && !growth_.is_late())
+      growth_.grow_to(outside_width, most, HUGE_VAL);
   } else if (outside_width > 0.0 && lengths_.outside_width > 0.0) {
     growth_.grow_to(outside_width, 0, HUGE_VAL);
   }
@@ -330,7 +332,7 @@ FacetClusters Approximation::run_count() {
   make_space(true);
   Covering best = cover_count(count, quick, width);
   double best_width = HUGE_VAL;
-  for (int round = 0; round < 2 && !best.planes.empty(); ++round) {
+  for (int round = 0; round < 2 && !best.planes.empty() && !growth_.is_late(); ++round) {
     add_offenders(best, true_widths(best), best.widest * (1.0 + 1e-12));
     make_space(true);
     // The better search needs fewer facets: a smaller width will do.

@@ -167,6 +167,26 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
   report_counters();
 }
 
+bool CertifiedGrowth::may_cover() {
+  const bool has_ended = hull_.status == HullStatus::kTimeLimit || hull_.status == HullStatus::kInterrupted;
+  if (has_ended) return false;
+  if (options_.stop.stop_requested())
+    hull_.status = HullStatus::kInterrupted;
+  else if (!limits_.has_time_to_cover(work_))
+    hull_.status = HullStatus::kTimeLimit;
+  else
+    return true;
+  return false;
+}
+
+bool CertifiedGrowth::is_late() {
+  const bool is_stopped = options_.stop.stop_requested();
+  if (!is_stopped && !limits_.is_late()) return false;
+  if (hull_.status == HullStatus::kComplete)
+    hull_.status = is_stopped ? HullStatus::kInterrupted : HullStatus::kTimeLimit;
+  return true;
+}
+
 void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
   for (const LocatedPoint& point : points) {
     push_outside(work_, point.point.value, point.simplex.value,

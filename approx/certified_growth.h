@@ -45,6 +45,11 @@ class CertifiedGrowth {
 
   GrowthWork& work() { return work_; }
   const double* coordinates() const { return coordinates_.data(); }
+  /// May the simplices be gathered into facets? Not when time is up or a stop was requested: then they are
+  /// the facets, which takes no time.
+  bool may_cover();
+  /// Should what is there be the result, if it can be one? Then the status says so.
+  bool is_late();
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
   /// Height of the furthest point that is still in an outside set; 0 without one.
   double furthest_height() const;

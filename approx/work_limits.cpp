@@ -28,11 +28,11 @@ constexpr std::size_t kSampledPoints = 64;
 /// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
 /// determinant, offsets, widths, area and own id.
 constexpr std::uint64_t kFacetBytes = 5 + 4 + 8 + 32 + 4;
-/// [bytes] of a simplex that may be merged: cluster, place, flags; beside them the rows are copied once to get
-/// their order.
+/// [bytes] of a simplex that may be merged: cluster, place, flags; beside them the rows are copied once to
+/// get their order.
 constexpr std::uint64_t kMergeBytes = 64;
-/// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points; the
-/// more the fewer merge.
+/// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points;
+/// the more the fewer merge.
 constexpr std::uint64_t kCoverBytes = 140;
 /// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
 constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
@@ -76,7 +76,6 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
   if (work.counters.shifted > 0) share += kMergeShare;
-  if (!is_exact_) share += kCoverShare;
   return static_cast<double>(rows) * share * seconds_per_created(work) +
          static_cast<double>(points) * seconds_per_point_;
 }
@@ -85,6 +84,17 @@ bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::u
   if (limits_.max_seconds <= 0.0) return false;
   const double left = seconds_left();
   return left <= 0.0 || finish_seconds(work, ball, points) >= left;
+}
+
+bool WorkLimits::has_time_to_cover(const GrowthWork& work) const {
+  if (limits_.max_seconds <= 0.0) return true;
+  const double rows = static_cast<double>(work.complex.row_count - work.free_count);
+  return rows * kCoverShare * seconds_per_created(work) < seconds_left();
+}
+
+bool WorkLimits::is_late() const {
+  constexpr double kLate = 0.6;  // of the time
+  return limits_.max_seconds > 0.0 && seconds_left() < (1.0 - kLate) * limits_.max_seconds;
 }
 
 double WorkLimits::affordable_products(const GrowthWork& work) const {

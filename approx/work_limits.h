@@ -31,6 +31,10 @@ class WorkLimits {
   /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
   /// inside.
   bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  /// Is there time to gather the simplices into slabs?
+  bool has_time_to_cover(const GrowthWork& work) const;
+  /// Has so much of the time passed that nothing should be tried a second time?
+  bool is_late() const;
   /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit.
   double affordable_products(const GrowthWork& work) const;
 
