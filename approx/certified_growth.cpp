@@ -41,7 +41,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       options_(options),
       start_(start),
       hull_(hull),
-      limits_(options.limits, start, gradient_factor.empty()) {
+      limits_(options.limits, start, options.accuracy.facets > 0) {
   coordinates_.resize(points_.rows * frame_.rank + 8);
   map_points(points_, frame_, coordinates_.data());
   work_.options.gradient_factor = std::move(gradient_factor);
@@ -170,12 +170,15 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
 bool CertifiedGrowth::may_cover() {
   const bool has_ended = hull_.status == HullStatus::kTimeLimit || hull_.status == HullStatus::kInterrupted;
   if (has_ended) return false;
-  if (options_.stop.stop_requested())
+  if (options_.stop.stop_requested()) {
     hull_.status = HullStatus::kInterrupted;
-  else if (!limits_.has_time_to_cover(work_))
+  } else if (!limits_.has_time_to_cover(work_)) {
     hull_.status = HullStatus::kTimeLimit;
-  else
+  } else if (!limits_.has_memory_to_cover(work_, frame_.dimension, point_bytes())) {
+    hull_.status = HullStatus::kMemoryLimit;
+  } else {
     return true;
+  }
   return false;
 }
 

@@ -45,8 +45,8 @@ class CertifiedGrowth {
 
   GrowthWork& work() { return work_; }
   const double* coordinates() const { return coordinates_.data(); }
-  /// May the simplices be gathered into facets? Not when time is up or a stop was requested: then they are
-  /// the facets, which takes no time.
+  /// May the simplices be gathered into facets? Not when time is up, memory is short or a stop was requested:
+  /// then they are the facets, which takes neither.
   bool may_cover();
   /// Should what is there be the result, if it can be one? Then the status says so.
   bool is_late();

@@ -39,18 +39,34 @@ constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
 
 }  // namespace
 
-std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
-                                    std::uint64_t point_bytes) const {
-  if (limits_.max_memory_bytes == 0) return 0;
-  std::uint64_t row_bytes = 16 * work.rank + kFacetBytes;
+/// [bytes] of a simplex in the end, when it may be merged with others, and when it is looked at for slabs.
+std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) {
+  std::uint64_t bytes = 16 * work.rank + kFacetBytes;
   // Of flat data the normals are longer than the planes and do not take their place.
-  if (work.rank != dimension) row_bytes += 8 * dimension;
-  if (!is_exact_ || work.counters.shifted > 0) row_bytes += 16 * work.rank + kMergeBytes;
-  if (!is_exact_) row_bytes += kCoverBytes;
+  if (work.rank != dimension) bytes += 8 * dimension;
+  if (merges) bytes += 16 * work.rank + kMergeBytes;
+  if (covers) bytes += kCoverBytes;
+  return bytes;
+}
+
+std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const {
   const std::uint64_t whole_pages = std::min(kPageBytes, limits_.max_memory_bytes / 8);
   const std::uint64_t used = point_bytes + whole_pages;
   const std::uint64_t left = limits_.max_memory_bytes > used ? limits_.max_memory_bytes - used : 0;
-  return std::max<std::uint64_t>(1, left / row_bytes);
+  return std::max<std::uint64_t>(1, left / bytes_a_row);
+}
+
+std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
+                                    std::uint64_t point_bytes) const {
+  if (limits_.max_memory_bytes == 0) return 0;
+  const bool merges = must_cover_ || work.counters.shifted > 0;
+  return rows_for(row_bytes(work, dimension, merges, must_cover_), point_bytes);
+}
+
+bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
+                                     std::uint64_t point_bytes) const {
+  if (limits_.max_memory_bytes == 0) return true;
+  return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
 }
 
 double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }

@@ -21,9 +21,10 @@ class WorkLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `start`: of the clock that max_seconds limits. `is_exact`: no facets are merged for a width.
-  WorkLimits(const Limits& limits, Clock::time_point start, bool is_exact)
-      : limits_(limits), start_(start), is_exact_(is_exact) {}
+  /// `start`: of the clock that max_seconds limits. `must_cover`: the simplices are gathered into facets in
+  /// any case.
+  WorkLimits(const Limits& limits, Clock::time_point start, bool must_cover)
+      : limits_(limits), start_(start), must_cover_(must_cover) {}
 
   /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
   /// of the points.
@@ -31,8 +32,9 @@ class WorkLimits {
   /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
   /// inside.
   bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
-  /// Is there time to gather the simplices into slabs?
+  /// Is there time, and is there memory, to gather the simplices into slabs?
   bool has_time_to_cover(const GrowthWork& work) const;
+  bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
   /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit.
@@ -40,12 +42,14 @@ class WorkLimits {
 
  private:
   double seconds_left() const;
+  static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);
+  std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
   static double seconds_per_created(const GrowthWork& work);
 
   Limits limits_;
   Clock::time_point start_;
-  bool is_exact_;
+  bool must_cover_;
   std::uint64_t sampled_at_ = 0;  // rows when points were sampled last
   double seconds_per_point_ = 0.0;
 };

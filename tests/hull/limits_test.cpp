@@ -129,6 +129,23 @@ TEST(LimitsLaw, AStopEndsApproximateHullsWithACertifiedResult) {
   EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
 }
 
+TEST(LimitsLaw, MemoryThatIsShortForMergingGoesIntoGrowth) {
+  const PointSet set = sphere(5000, 7);
+  HullOptions options{.limits = {.max_memory_bytes = 24'000'000}};
+  options.accuracy.width = {.value = 1.0, .is_percent = true};
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, HullStatus::kMemoryLimit);
+  EXPECT_FALSE(hull.is_approximate);
+  EXPECT_GT(hull.facet_count() * (16U * 7U + 53U), 14'000'000U);
+  EXPECT_LT(hull.facet_count() * (16U * 7U + 53U), 24'000'000U);
+  EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+  // A number of facets is kept all the same.
+  options.accuracy = {.facets = 300};
+  const Hull few = hull_of(set, options);
+  EXPECT_LE(few.facet_count(), 300U);
+  EXPECT_LE(largest_outer_excess(few, set.view()), 0.0L);
+}
+
 TEST(LimitsLaw, MergingIsCountedInTheMemory) {
   // A cube's simplices are merged: that takes about as much memory again.
   const PointSet cube = family_points(PointFamily::kCubeCorners, 0, 9, 1);
