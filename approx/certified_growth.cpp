@@ -295,7 +295,8 @@ void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>&
   const double live = static_cast<double>(work_.complex.row_count - work_.free_count);
   const double products = live * static_cast<double>(left_out_.size() * frame_.dimension);
   covered_gauge_ = 0.0;
-  const double affordable = std::min(kAffordableProducts, limits_.affordable_products(work_));
+  const double affordable =
+      std::min(kAffordableProducts, limits_.affordable_products(work_, options_.stop.stop_requested()));
   if (products > affordable && std::isfinite(largest_gauge)) {
     // Rounding of the frame's coordinates is far below this.
     covered_gauge_ = largest_gauge + 1e-14;

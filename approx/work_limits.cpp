@@ -113,9 +113,11 @@ bool WorkLimits::is_late() const {
   return limits_.max_seconds > 0.0 && seconds_left() < (1.0 - kLate) * limits_.max_seconds;
 }
 
-double WorkLimits::affordable_products(const GrowthWork& work) const {
-  if (limits_.max_seconds <= 0.0) return HUGE_VAL;
-  return std::max(0.0, 0.3 * seconds_left()) / (kSharePerProduct * seconds_per_created(work));
+double WorkLimits::affordable_products(const GrowthWork& work, bool is_stopped) const {
+  double seconds = HUGE_VAL;
+  if (is_stopped) seconds = std::max(1.0, 0.1 * seconds_since(start_));
+  if (limits_.max_seconds > 0.0) seconds = std::clamp(0.3 * seconds_left(), 0.0, seconds);
+  return seconds / (kSharePerProduct * seconds_per_created(work));
 }
 
 }  // namespace ndhull

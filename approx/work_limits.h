@@ -37,8 +37,9 @@ class WorkLimits {
   bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
-  /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit.
-  double affordable_products(const GrowthWork& work) const;
+  /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a
+  /// request to stop: that take a second, or some share of the time so far.
+  double affordable_products(const GrowthWork& work, bool is_stopped) const;
 
  private:
   double seconds_left() const;

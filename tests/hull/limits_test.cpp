@@ -115,6 +115,24 @@ TEST(LimitsLaw, TimeEndsApproximateHullsWithACertifiedResult) {
   }
 }
 
+TEST(LimitsLaw, AStopIsFollowedByNoLongWork) {
+  // Every point is a vertex: proving each plane against each point would take minutes.
+  const PointSet set = sphere(100'000, 10);
+  std::stop_source source;
+  std::chrono::steady_clock::time_point stopped;
+  HullOptions options{.stop = source.get_token()};
+  options.progress = [&](const Progress& progress) {
+    if (progress.simplices < 200'000 || source.stop_requested()) return;
+    source.request_stop();
+    stopped = std::chrono::steady_clock::now();
+  };
+  const Hull hull = hull_of(set, options);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - stopped;
+  EXPECT_EQ(hull.status, HullStatus::kInterrupted);
+  EXPECT_LT(elapsed.count(), 20.0);  // alone it is about 1
+  EXPECT_GT(hull.max_outer_offset, 0.0);
+}
+
 TEST(LimitsLaw, AStopEndsApproximateHullsWithACertifiedResult) {
   const PointSet set = sphere(20'000, 7);
   std::stop_source source;
