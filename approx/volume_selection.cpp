@@ -10,6 +10,7 @@
 
 #include "approx/boundedness.h"
 #include "approx/outer_volume.h"
+#include "approx/volume_rays.h"
 #include "core/error.h"
 #include "core/portable_random.h"
 
@@ -17,10 +18,11 @@ namespace ndhull {
 namespace {
 
 using Eigen::Index;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Rows = PlaneRows;
 using Ids = std::vector<std::uint32_t>;
 
 constexpr std::size_t kMostCandidates = 20'000;
+/// With more planes nearly all of the polytope is the hull: points spread over it see too little.
 constexpr std::size_t kMostExchanged = 100;
 constexpr Index kExchangePoints = 1000;
 /// Vertices of a polytope whose volume is computed to compare choices.
@@ -116,8 +118,13 @@ class VolumeChoice {
 
   std::vector<FacetId> choose() {
     if (facets_.size() <= count_) return facets_of(all_candidates());
-    const Ids greedy = add_planes();
-    std::vector<Ids> choices{exchanged(greedy), greedy};
+    const std::span<const double> normals(planes_.data(), static_cast<std::size_t>(planes_.size()));
+    const Ids start = complete_to_bounded(normals, hull_.rank, {});
+    std::vector<Ids> choices{choose_by_rays(planes_, start, count_)};
+    if (count_ <= kMostExchanged) {
+      choices.push_back(add_planes(start));
+      choices.push_back(exchanged(choices.back()));
+    }
     Ids largest(count_);
     std::iota(largest.begin(), largest.end(), 0U);
     if (is_bounded(rows_of(planes_, largest))) choices.push_back(largest);
@@ -158,19 +165,14 @@ class VolumeChoice {
     for (Index row = 0; row < rows.rows(); ++row) {
       rows.row(row) /= planes.heights[static_cast<std::size_t>(row)];
     }
-    rows = (rows.array().rowwise() / rows.cwiseAbs().colwise().maxCoeff().array()).eval();
-    const Eigen::MatrixXd spread = rows.transpose() * rows / static_cast<double>(rows.rows());
-    const Eigen::MatrixXd lower = Eigen::LLT<Eigen::MatrixXd>(spread).matrixL();
-    return lower.triangularView<Eigen::Lower>().solve(rows.transpose()).transpose();
+    return evenly_spread(rows);
   }
 
   static Index points_above(const Rows& points, const Eigen::RowVectorXd& plane) {
     return ((points * plane.transpose()).array() > 1.0).count();
   }
 
-  Ids add_planes() {
-    const std::span<const double> normals(planes_.data(), static_cast<std::size_t>(planes_.size()));
-    Ids chosen = complete_to_bounded(normals, hull_.rank, {});
+  Ids add_planes(Ids chosen) {
     const auto wanted = static_cast<Index>(std::clamp<std::size_t>(40 * count_, 2000, 20'000));
     EvenPoints even(wanted, planes_.cols());
     even.spread(rows_of(planes_, chosen));
@@ -208,7 +210,6 @@ class VolumeChoice {
 
   /// Takes each plane out in turn, and puts in the one that then cuts most off: it may be the same.
   Ids exchanged(Ids chosen) {
-    if (chosen.size() > kMostExchanged) return chosen;
     for (std::size_t place = 0; place < chosen.size(); ++place) {
       Ids others = chosen;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
