@@ -15,14 +15,22 @@ struct Length {
   bool is_set() const { return value > 0.0; }
 };
 
+/// What a target number of facets makes small.
+enum class FacetObjective {
+  kWidth,   ///< the widest facet
+  kVolume,  ///< the volume below the outer planes, which are then chosen of those of the exact hull
+};
+
 /// Which facets may be traded for which error. Nothing set: the exact hull.
 struct Accuracy {
   Length width;              ///< target: no facet is wider than this (certified); as few facets as possible
   std::uint64_t facets = 0;  ///< target: at most this many facets, as narrow as possible; 0: no target
-  Length outside_width;      ///< growth leaves out points that are less than this outside (W)
-  Length centrum_radius;     ///< merge while a centrum is less than this below its neighbour's plane (C)
-  double max_cosine = 2.0;   ///< merge while normals of neighbours agree more than this (A); above 1: off
-  Length width_cap;          ///< merging makes no facet wider than this; not set: see default_width_cap
+  FacetObjective objective = FacetObjective::kWidth;  ///< what a target `facets` makes small
+  Length outside_width;     ///< growth leaves out points that are less than this outside (W)
+  Length centrum_radius;    ///< merge while a centrum is less than this below its neighbour's plane (C)
+  double max_cosine = 2.0;  ///< merge while normals of neighbours agree more than this (A); above 1: off
+  Length width_cap;         ///< merging makes no facet wider than this; not set: see default_width_cap
+  bool is_for_volume() const { return facets > 0 && objective == FacetObjective::kVolume; }
   bool is_exact() const {
     return !width.is_set() && facets == 0 && !outside_width.is_set() && !merges_neighbours();
   }

@@ -20,6 +20,7 @@
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
 #include "approx/point_reduction.h"
+#include "approx/volume_cover.h"
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -65,7 +66,8 @@ class HullBuilder {
     }
     describe_input();
     if (frame_.rank == 0) return std::move(hull_);
-    const bool is_exact = options_.accuracy.is_exact() || frame_.rank == 1;
+    const Accuracy& accuracy = options_.accuracy;
+    const bool is_exact = accuracy.is_exact() || accuracy.is_for_volume() || frame_.rank == 1;
     std::vector<double> factor;
     if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
     growth_.emplace(points_, frame_, factor, options_, start_, hull_);
@@ -128,18 +130,26 @@ class HullBuilder {
     }
     orient(determinants);
     detail("volumes", start);
-    // Without a shifted point every decision was clearer than the shift: all ridges are convex.
-    if (clusters_.count == 0 && (!shifted || options_.triangulate)) {
-      hull_.layout_ = simplicial_layout(complex());
-      return;
-    }
     const Clock::time_point merge_start = Clock::now();
     hull_.is_approximate = clusters_.count > 0;
-    if (!hull_.is_approximate)
+    // Without a shifted point every decision was clearer than the shift: all ridges are convex.
+    if (!hull_.is_approximate && shifted && !options_.triangulate) {
       clusters_ = merge_coplanar(complex(), growth_->coordinates(), determinants,
                                  4.0 * growth_->work().options.shift);
+    }
+    if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);
     hull_.layout_ = lay_out(complex(), determinants, clusters_, gradient_factor(frame_, LengthUnit()));
     detail("coplanar merging", merge_start);
+  }
+
+  /// Fewer facets than the exact ones, if fewer were asked for.
+  void choose_for_volume(std::span<const double> determinants) {
+    std::optional<FacetClusters> few =
+        cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
+                         gradient_factor(frame_, hull_.length_unit_));
+    if (!few) return;
+    clusters_ = std::move(*few);
+    hull_.is_approximate = true;
   }
 
   /// The rows' common orientation may be either; volumes are positive.

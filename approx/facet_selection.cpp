@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "approx/boundedness.h"
+#include "approx/outer_distance.h"
 #include "approx/volume_selection.h"
 
 namespace ndhull {
@@ -40,9 +41,12 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options)
   std::vector<bool> is_kept(hull.facet_count(), true);
   std::vector<std::uint32_t> ids(hull.facet_count());
   std::iota(ids.begin(), ids.end(), 0U);
-  if (options.largest && options.measure == SelectionMeasure::kVolume) {
+  if (options.largest && options.measure != SelectionMeasure::kArea) {
     is_kept.assign(is_kept.size(), false);
-    for (const FacetId facet : choose_for_volume(hull, *options.largest)) is_kept[facet.value] = true;
+    const std::vector<FacetId> chosen = options.measure == SelectionMeasure::kVolume
+                                            ? choose_for_volume(hull, *options.largest)
+                                            : choose_for_distance(hull, *options.largest);
+    for (const FacetId facet : chosen) is_kept[facet.value] = true;
   } else if (options.largest) {
     keep_first(*options.largest, ids, is_kept, is_larger);
   }

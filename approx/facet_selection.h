@@ -13,8 +13,9 @@ namespace ndhull {
 
 /// What `largest` stands for.
 enum class SelectionMeasure {
-  kArea,    ///< the facets of largest area
-  kVolume,  ///< those whose outer planes together enclose little (approx/volume_selection.h)
+  kArea,      ///< the facets of largest area
+  kVolume,    ///< those whose outer planes together enclose little (approx/volume_selection.h)
+  kDistance,  ///< those whose outer planes meet nowhere far from the hull (approx/outer_distance.h)
 };
 
 /// Which facets to keep: those that every option that is set keeps. Without any: all of them.
@@ -40,7 +41,7 @@ struct FacetSelection {
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/boundedness.h), each of which is needed. Facets of a
 ///           hull always can bound a region. A hull without facets is a point, and bounded.
-/// Throws    Error kUsage as choose_for_volume does.
+/// Throws    Error kUsage as choose_for_volume and choose_for_distance do.
 /// Cost      O(facets) and a sort of those kept; a few linear programs over the planes selected, with
 ///           `bounded` over all planes when the selection is open.
 FacetSelection select_facets(const Hull& hull, const SelectionOptions& options);

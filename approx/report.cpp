@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "approx/facet_selection.h"
+#include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/verify.h"
 
@@ -65,6 +66,7 @@ Json options_of(const ReportContext& context) {
   const Accuracy& accuracy = options.accuracy;
   Json json{{"width", length(accuracy.width)},
             {"facets", limit(accuracy.facets)},
+            {"objective", accuracy.objective == FacetObjective::kVolume ? "volume" : "width"},
             {"outside_width", length(accuracy.outside_width)},
             {"centrum_radius", length(accuracy.centrum_radius)},
             {"max_cosine", accuracy.max_cosine <= 1.0 ? Json(accuracy.max_cosine) : Json(nullptr)},
@@ -137,11 +139,13 @@ Json subspace_of(const Hull& hull) {
   return equations;
 }
 
-Json selected_of(const FacetSelection& selection) {
+Json selected_of(const FacetSelection& selection, const OuterDistance* outer) {
+  const bool is_known = outer != nullptr && outer->distance.has_value();
   return {{"facets", selection.facets.size()},
           {"added", selection.added},
           {"bounded", selection.bounded},
-          {"open_direction", selection.bounded ? Json(nullptr) : Json(selection.open_direction)}};
+          {"open_direction", selection.bounded ? Json(nullptr) : Json(selection.open_direction)},
+          {"outer_distance", is_known ? Json(*outer->distance) : Json(nullptr)}};
 }
 
 void add_outer_volume(const OuterVolume* outer, Json& json) {
@@ -166,7 +170,8 @@ Json head_of(const Hull& hull, const ReportContext& context) {
   json["simplicial_facets"] = hull.simplicial_facet_count();
   json["merged_facets"] = hull.facet_count() - hull.simplicial_facet_count();
   json["simplices"] = hull.simplices.row_count;
-  if (context.selection != nullptr) json["selected"] = selected_of(*context.selection);
+  if (context.selection != nullptr)
+    json["selected"] = selected_of(*context.selection, context.outer_distance);
   json["area"] = hull.area;
   json["volume"] = hull.volume;
   add_outer_volume(context.outer_volume, json);

@@ -14,6 +14,7 @@
 namespace ndhull {
 
 struct FacetSelection;
+struct OuterDistance;
 struct OuterVolume;
 struct Verification;
 
@@ -38,9 +39,10 @@ struct ReportContext {
   double verify_seconds = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 
-  const Verification* verification = nullptr;  ///< null: not verified
-  const FacetSelection* selection = nullptr;   ///< null: all facets
-  const OuterVolume* outer_volume = nullptr;   ///< of the selection, else of all facets; null: not computed
+  const Verification* verification = nullptr;     ///< null: not verified
+  const FacetSelection* selection = nullptr;      ///< null: all facets
+  const OuterDistance* outer_distance = nullptr;  ///< of the selection; null: not computed
+  const OuterVolume* outer_volume = nullptr;  ///< of the selection, else of all facets; null: not computed
   bool facet_list = false;
 };
 

@@ -57,6 +57,18 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
                   "target: at most this many facets, as narrow as possible")
       ->type_name("N")
       ->check(whole_number(1));
+  command
+      .add_option_function<std::string>(
+          "--objective",
+          [this](const std::string& word) {
+            options_.accuracy.objective = word == "volume" ? FacetObjective::kVolume : FacetObjective::kWidth;
+          },
+          "what --facets makes small: the widest facet (width, default), or the volume below the outer "
+          "planes "
+          "(volume: planes are chosen of the exact hull's)")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"width", "volume"}).description(""))
+      ->needs("--facets");
   add_length("--outside-width", outside_width_,
              "leave out points that are less than this outside (Qhull's Wn)");
   add_length("--centrum-radius", centrum_radius_,

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <utility>
 
+#include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "core/error.h"
@@ -187,6 +188,7 @@ int run_hull(const HullRequest& request) {
     if (!selection->bounded) warn_of_open_selection(*selection, hull);
   }
   std::optional<OuterVolume> outer;
+  std::optional<OuterDistance> outer_reach;
   const bool is_summary = !request.has_output() && !request.quiet;
   if (!request.report_path.empty() || is_summary) {
     progress.show_phase("outer volume");
@@ -194,6 +196,15 @@ int run_hull(const HullRequest& request) {
     arena.execute([&] { outer = outer_volume_of(request, hull, context); });
     context.outer_volume_seconds = seconds_since(volume_start);
     context.outer_volume = &*outer;
+    if (selection && selection->bounded) {
+      const std::uint64_t limit =
+          request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
+      arena.execute([&] {
+        outer_reach = outer_distance(hull, points.view(), selection->facets, limit, context.options.threads,
+                                     context.options.stop);
+      });
+      context.outer_distance = &*outer_reach;
+    }
   }
 
   progress.show_phase("write");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "approx/facet_selection.h"
+#include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/verify.h"
 #include "tools/byte_count.h"
@@ -11,10 +12,12 @@
 namespace ndhull {
 namespace {
 
-std::string describe_selection(const FacetSelection& selection) {
+std::string describe_selection(const FacetSelection& selection, const OuterDistance* outer) {
   std::string text = fmt::format("selected  {} facets", grouped(selection.facets.size()));
   if (selection.added > 0) text += fmt::format(", {} of them to bound a region", grouped(selection.added));
-  return text + (selection.bounded ? "; bounded\n" : "; not bounded\n");
+  if (!selection.bounded) return text + "; not bounded\n";
+  if (outer == nullptr || !outer->distance) return text + "; bounded\n";
+  return text + fmt::format("; bounded, nowhere further than {:.6g} from the hull\n", *outer->distance);
 }
 
 std::string describe_outer_volume(const OuterVolume& outer, const Hull& hull) {
@@ -41,7 +44,7 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
                       grouped(hull.simplicial_facet_count()),
                       grouped(hull.facet_count() - hull.simplicial_facet_count()),
                       grouped(hull.simplices.row_count));
-  if (context.selection != nullptr) text += describe_selection(*context.selection);
+  if (context.selection != nullptr) text += describe_selection(*context.selection, context.outer_distance);
   if (hull.rank > 0) {
     // The facets of a segment are its two ends, which are counted.
     text += fmt::format("volume    {:.10g} {}\n", hull.volume, power_of_unit(hull.rank));

@@ -16,12 +16,15 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
       .add_option_function<std::string>(
           "--select",
           [&selection](const std::string& word) {
-            selection.measure = word == "volume" ? SelectionMeasure::kVolume : SelectionMeasure::kArea;
+            for (const SelectionMeasure measure :
+                 {SelectionMeasure::kArea, SelectionMeasure::kVolume, SelectionMeasure::kDistance}) {
+              if (word == to_string(measure)) selection.measure = measure;
+            }
           },
-          "what --largest means: area (default), or volume: the N facets whose outer planes together "
-          "enclose little")
+          "what --largest means: area (default); volume: the N facets whose outer planes together "
+          "enclose little; distance: those whose outer planes meet nowhere far from the hull")
       ->type_name("MEASURE")
-      ->check(CLI::IsMember({"area", "volume"}).description(""))
+      ->check(CLI::IsMember({"area", "volume", "distance"}).description(""))
       ->needs(largest);
   command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
       ->type_name("A")
@@ -36,7 +39,12 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
 }
 
 std::string_view to_string(SelectionMeasure measure) {
-  return measure == SelectionMeasure::kVolume ? "volume" : "area";
+  switch (measure) {
+    case SelectionMeasure::kArea: return "area";
+    case SelectionMeasure::kVolume: return "volume";
+    case SelectionMeasure::kDistance: return "distance";
+  }
+  return "unknown";
 }
 
 void check_selection(const SelectionOptions& selection) {

@@ -162,5 +162,46 @@ def test_view_draws_whole_hulls_only():
     run("view", folder / "report.json", "-o", folder / "view.svg")
 
 
+def test_distance_chooses_planes_that_stay_near_and_says_how_near():
+    folder = fresh_folder("distance")
+    points = folder / "points.npy"
+    rbox("200 s D5 t1", points)
+    by_area = report_of(points, "--largest", 20, "--bounded")["selected"]
+    report = report_of(points, "--largest", 20, "--select", "distance", "--facet-list")
+    chosen = report["selected"]
+    assert chosen["facets"] == 20 and chosen["bounded"] and report["options"]["select"] == "distance"
+    assert 0 < chosen["outer_distance"] < by_area["outer_distance"]
+    # No vertex of what the planes enclose is further above a facet.
+    run("hull", points, "--largest", 20, "--select", "distance", "--planes", folder / "planes.npy")
+    run("intersect", folder / "planes.npy", "--vertices", folder / "corners.npy")
+    corners = numpy.load(folder / "corners.npy")
+    whole = all_facets(points)
+    normals = numpy.array([facet["normal"] for facet in whole])
+    offsets = numpy.array([facet["offset"] for facet in whole])
+    highest = (corners @ normals.T + offsets).max()
+    assert 0.3 * chosen["outer_distance"] < highest <= chosen["outer_distance"] * (1 + 1e-12)
+    assert "nowhere further than" in run("hull", points, "--largest", 20, "--select", "distance").stdout
+    assert report_of(points, "--largest", 3)["selected"]["outer_distance"] is None
+    one_error_line(run("hull", points, "--largest", 4, "--select", "distance", exit_code=1), "usage")
+
+
+def test_facets_for_volume_are_certified_planes_of_the_exact_hull():
+    folder = fresh_folder("objective")
+    points = folder / "points.npy"
+    rbox("400 D5 t1", points)
+    exact = report_of(points)
+    volumes = {}
+    for objective in ("width", "volume"):
+        report = report_of(points, "--facets", 375, "--objective", objective, "--outer-volume", "--verify")
+        assert report["facets"] <= 375 and report["options"]["objective"] == objective
+        assert report["verification"]["passed"] and report["points_outside"] == 0
+        volumes[objective] = report["outer_volume"] / exact["volume"] - 1
+    assert volumes["volume"] <= 0.042 and volumes["volume"] < volumes["width"], volumes
+    planes = folder / "planes.npy"
+    run("hull", points, "--facets", 375, "--objective", "volume", "--planes", planes)
+    assert "pass" in run("verify", points, planes).stdout and len(numpy.load(planes)) == 375
+    one_error_line(run("hull", points, "--objective", "volume", exit_code=1), "usage")
+
+
 if __name__ == "__main__":
     run_tests(globals())
