@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "approx/facet_table.h"
 #include "approx/hull.h"
 #include "approx/work_limits.h"
 #include "core/frame.h"
@@ -58,7 +59,7 @@ class CertifiedGrowth {
   /// One flag a point: vertex of a simplex, or left out.
   std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
-  double covered_gauge() const { return covered_gauge_; }
+  CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
   void release_coordinates() { coordinates_ = std::vector<double>(); }
   /// A segment: rank 1 has no growth.
   void make_segment();

@@ -54,6 +54,18 @@ void drop_rounding(SimplicialComplex& complex, const FacetLayout& layout) {
   }
 }
 
+/// How far from the frame's centre a ball of the frame around it reaches along a normal: no covered point
+/// reaches further. Where the frame's map has cancellation, or nothing is covered: infinitely far.
+double support_of_ball(const Frame& frame, std::span<const double> normal, const CoveredPoints& covered) {
+  if (covered.gauge == 0.0 || !frame.is_diagonal || frame.rank != frame.dimension) return HUGE_VAL;
+  double length_sq = 0.0;
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    const double part = normal[k] / frame.map[k * frame.dimension + k];
+    length_sq += part * part;
+  }
+  return covered.reach * std::sqrt(length_sq) * (1.0 + 1e-13);  // rounding of some dimension + 4 operations
+}
+
 /// What is summed up over the facets of one block.
 struct FacetSums {
   double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0, area = 0.0;
@@ -109,7 +121,7 @@ CertificatePoints gather_certificate_points(const PointView& points, const Frame
 
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, double covered_gauge) {
+                            const LengthUnit& unit, const CoveredPoints& covered) {
   const std::size_t dimension = frame.dimension;
   const std::size_t count = layout.facets;
   FacetTable table;
@@ -173,7 +185,10 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
       const double error = sum_error(dimension + 3, size);
       const double per_unit = 1.0 / unit.input_per_unit(normal);
       const double outer_explicit = std::max(0.0, highest[facet] + offset + error);
-      const double outer = ((1.0 + covered_gauge) * outer_explicit + covered_gauge * height) * per_unit;
+      const double of_scaled_hull = (1.0 + covered.gauge) * outer_explicit + covered.gauge * height;
+      const double of_ball =
+          std::max(outer_explicit, support_of_ball(frame, normal, covered) - height + error);
+      const double outer = std::min(of_scaled_hull, of_ball) * per_unit;
       const double inner = std::min(0.0, low[facet] + offset - error) * per_unit;
       table.offsets[facet] = offset;
       table.outer[facet] = outer;

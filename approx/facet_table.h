@@ -43,12 +43,17 @@ struct FacetTable {
   double surface = 0.0;  ///< sum of the simplices' areas, which merged facets see in projection only
 };
 
+/// What is known of the input points that are no certificate points, about the frame's centre.
+struct CoveredPoints {
+  /// They lie in the hull of those that are, scaled by 1 + this; 0: well inside.
+  double gauge = 0.0;
+  double reach = 0.0;  ///< no point is longer than this in the frame
+};
+
 /// Makes planes, certificates and areas of all facets.
 ///
 /// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
 ///           consumed: turned into the normals in place where the shapes allow.
-///           covered_gauge: every input point that is no certificate point lies in the hull of those that
-///           are, scaled by 1 + this about the frame's centre.
 /// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on
 /// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
@@ -56,6 +61,6 @@ struct FacetTable {
 /// Cost      facets x points x dimension fused multiply-adds.
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, double covered_gauge);
+                            const LengthUnit& unit, const CoveredPoints& covered);
 
 }  // namespace ndhull

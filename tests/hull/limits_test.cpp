@@ -1,4 +1,5 @@
 // A limit ends growth, not the promise: what is there is a sound hull whose outer planes bound every point.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stop_token>
@@ -130,7 +131,21 @@ TEST(LimitsLaw, AStopIsFollowedByNoLongWork) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - stopped;
   EXPECT_EQ(hull.status, HullStatus::kInterrupted);
   EXPECT_LT(elapsed.count(), 20.0);  // alone it is about 1
+  // On a sphere the ball around all points bounds far better than the scaled hull: by some |x - c| - h, not s
+  // h.
   EXPECT_GT(hull.max_outer_offset, 0.0);
+  EXPECT_LT(hull.max_outer_offset, 1.2);
+  long double excess = 0.0L;
+  for (std::uint32_t facet = 0; facet < hull.facet_count(); facet += 997) {
+    for (std::size_t row = 0; row < set.rows(); ++row) {
+      long double distance = hull.centred_offset(FacetId{facet});
+      for (std::size_t k = 0; k < 10; ++k)
+        distance += static_cast<long double>(hull.normal(FacetId{facet})[k]) *
+                    (static_cast<long double>(set.row(row)[k]) - hull.reference[k]);
+      excess = std::max(excess, distance - hull.outer_offset(FacetId{facet}));
+    }
+  }
+  EXPECT_LE(excess, 0.0L);
 }
 
 TEST(LimitsLaw, AStopEndsApproximateHullsWithACertifiedResult) {
