@@ -78,6 +78,14 @@ bool receive_all(int descriptor, double max_seconds, std::vector<std::uint8_t>& 
   }
 }
 
+std::uint64_t peak_bytes_of(const rusage& usage) {
+#ifdef __APPLE__
+  return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);  // in KiB
+#endif
+}
+
 void interpret(int status, const std::vector<std::uint8_t>& bytes, ChildResult& result) {
   if (WIFSIGNALED(status)) {
     result.end = ChildResult::End::kCrashed;
@@ -120,10 +128,7 @@ ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max
   }
 
   ChildResult result;
-  result.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss);
-#ifndef __APPLE__
-  result.peak_bytes *= 1024;  // in KiB elsewhere
-#endif
+  result.peak_bytes = peak_bytes_of(usage);
   if (in_time) {
     interpret(status, bytes, result);
   } else {
@@ -146,6 +151,11 @@ std::uint64_t resident_bytes() {
   const bool read = std::fscanf(file, "%llu %llu", &total_pages, &resident_pages) == 2;
   std::fclose(file);
   return read ? resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+std::uint64_t peak_resident_bytes() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? peak_bytes_of(usage) : 0;
 }
 
 Stopwatch::Stopwatch()

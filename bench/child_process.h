@@ -34,6 +34,9 @@ void limit_address_space(std::uint64_t bytes);
 /// [bytes] Resident memory of this process now; 0 where the system does not say.
 std::uint64_t resident_bytes();
 
+/// [bytes] The largest resident memory that this process has had.
+std::uint64_t peak_resident_bytes();
+
 /// Wall clock and processor time (all threads) since construction.
 class Stopwatch {
  public:

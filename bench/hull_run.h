@@ -22,6 +22,7 @@ struct HullRun {
   double max_outer_offset = 0.0;     ///< [distance] of all facets, >= 0
   double min_inner_offset = 0.0;     ///< [distance] of all facets, <= 0
   std::uint64_t resident_bytes = 0;  ///< before the call, with the points loaded
+  std::uint64_t peak_bytes = 0;      ///< largest so far, right after the call; 0: not known
   nlohmann::json detail;
 };
 
@@ -41,6 +42,14 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
 /// Throws    std::runtime_error with Qhull's exit code and first line of message.
 /// Leaks     Qhull's memory: call it in a child process.
 HullRun run_qhull(const BenchInput& input, const std::string& options);
+
+/// CGAL's Triangulation of the points, 3-d to 7-d. `facets` are its infinite cells: simplices, coplanar ones
+/// not merged. Time: inserting all points. Throws std::runtime_error in other dimensions.
+HullRun run_cgal(const BenchInput& input);
+
+/// The program lrs, on coordinates rounded to 2^-20. Time: of the process. Memory is not known.
+/// Throws std::runtime_error for more than 300 points, or when lrs is not installed or finds no facets.
+HullRun run_lrs(const BenchInput& input);
 
 /// As linked, "2020.2.r".
 const char* qhull_version();

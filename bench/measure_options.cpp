@@ -94,11 +94,12 @@ Table measurement_table(const std::string& title, const std::vector<RunRecord>& 
       row.insert(row.end(), {"-", "-", "-", "-", "-", "-", repeats.failure});
     } else {
       const HullRun& run = repeats.last();
-      row.insert(row.end(), {grouped_number(run.facets), grouped_number(run.vertices),
-                             short_number(run.max_facet_width), seconds_with_spread(repeats),
-                             short_number(static_cast<double>(repeats.peak_bytes()) / (1024.0 * 1024.0)),
-                             is_big(run) ? short_number(bytes_per_facet(repeats.done.back())) : "-",
-                             repeats.done.back().is_complete() ? "" : repeats.done.back().status()});
+      row.insert(row.end(),
+                 {grouped_number(run.facets), run.vertices == 0 ? "-" : grouped_number(run.vertices),
+                  run.vertices == 0 ? "-" : short_number(run.max_facet_width), seconds_with_spread(repeats),
+                  short_number(static_cast<double>(repeats.peak_bytes()) / (1024.0 * 1024.0)),
+                  is_big(run) ? short_number(bytes_per_facet(repeats.done.back())) : "-",
+                  repeats.done.back().is_complete() ? "" : repeats.done.back().status()});
     }
     table.rows.push_back(std::move(row));
   }

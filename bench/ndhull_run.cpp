@@ -12,6 +12,7 @@ void to_json(nlohmann::json& json, const HullRun& run) {
           {"max_outer_offset", run.max_outer_offset},
           {"min_inner_offset", run.min_inner_offset},
           {"resident_bytes", run.resident_bytes},
+          {"peak_bytes", run.peak_bytes},
           {"detail", run.detail}};
 }
 
@@ -24,6 +25,7 @@ void from_json(const nlohmann::json& json, HullRun& run) {
   run.max_outer_offset = json.value("max_outer_offset", run.max_outer_offset);
   run.min_inner_offset = json.value("min_inner_offset", run.min_inner_offset);
   json.at("resident_bytes").get_to(run.resident_bytes);
+  run.peak_bytes = json.value("peak_bytes", run.peak_bytes);
   run.detail = json.at("detail");
 }
 
@@ -34,6 +36,7 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
   const Hull hull = convex_hull(input.points.view(), options);
   run.wall_seconds = watch.wall_seconds();
   run.cpu_seconds = watch.cpu_seconds();
+  run.peak_bytes = peak_resident_bytes();
 
   run.facets = hull.facet_count();
   run.vertices = hull.vertices.size();

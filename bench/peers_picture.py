@@ -18,11 +18,9 @@ def medians(path):
     seconds = {}
     with open(path, encoding="utf-8") as lines:
         for line in lines:
-            pair = json.loads(line)
-            for engine in COLOURS:
-                value = (pair.get(engine) or {}).get("wall_seconds")
-                if value:
-                    seconds.setdefault(pair["input"], {}).setdefault(engine, []).append(value)
+            run = json.loads(line)
+            if run["engine"] in COLOURS and run["end"] == "done":
+                seconds.setdefault(run["input"], {}).setdefault(run["engine"], []).append(run["wall_seconds"])
     return {name: {engine: statistics.median(values) for engine, values in engines.items()}
             for name, engines in seconds.items() if len(engines) == len(COLOURS)}
 

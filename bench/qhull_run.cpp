@@ -58,6 +58,7 @@ int compute(qhT* qh, char* command, coordT* points, int count, int dimension, Hu
   qh_qhull(qh);
   run.wall_seconds = watch.wall_seconds();
   run.cpu_seconds = watch.cpu_seconds();
+  run.peak_bytes = peak_resident_bytes();
 
   run.facets = static_cast<std::uint64_t>(qh->num_facets - qh->num_visible);
   run.vertices = static_cast<std::uint64_t>(qh->num_vertices - qh_setsize(qh, qh->del_vertices));

@@ -9,6 +9,7 @@
 #include "bench/approximate_tables.h"
 #include "bench/dimension_charts.h"
 #include "bench/measure_options.h"
+#include "bench/peers_table.h"
 #include "bench/run_csv.h"
 #include "bench/scaling_tables.h"
 
@@ -111,6 +112,10 @@ std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records
                  [](const DimensionRun& run) { return std::optional(run.repeats.median_seconds()); }),
              runtime);
   runtime.tables.push_back(ratio_table(families));
+
+  ReportSection& peers = sections.emplace_back();
+  peers.title = "Side by side";
+  peers.tables = peers_tables(records);
 
   ReportSection& width = sections.emplace_back();
   width.title = "Facet width against dimension";

@@ -11,6 +11,7 @@
 #include "bench/child_process.h"
 #include "bench/hull_run.h"
 #include "bench/table.h"
+#include "core/error.h"
 #include "tools/generate.h"
 #include "tools/point_reader.h"
 
@@ -126,6 +127,12 @@ class Measurement {
           },
           limits_.max_seconds);
     }
+    if (run.engine == "cgal") {
+      return run_in_child([&] { return nlohmann::json(run_cgal(input_)); }, limits_.max_seconds);
+    }
+    if (run.engine == "lrs") {
+      return run_in_child([&] { return nlohmann::json(run_lrs(input_)); }, limits_.max_seconds);
+    }
     HullOptions options;
     options.accuracy = run.options.accuracy;
     options.unit_cube = unit_cube;
@@ -211,8 +218,18 @@ class Measurement {
 
 }  // namespace
 
+const char* engine_names() { return "ndhull, qhull, cgal, lrs"; }
+
 std::vector<RunRecord> measure(const RunPlan& plan, const RunLimits& limits,
                                const std::vector<RunRecord>& earlier, RecordFile& file) {
+  for (const PlannedRun& run : plan.runs) {
+    const bool is_known =
+        run.engine == "ndhull" || run.engine == "qhull" || run.engine == "cgal" || run.engine == "lrs";
+    if (!is_known) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("engine \"{}\" is not known, expected one of {}", run.engine, engine_names()));
+    }
+  }
   return Measurement(plan, limits, earlier, file).measure_all();
 }
 

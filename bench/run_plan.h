@@ -26,7 +26,7 @@ struct PlannedRun {
   std::size_t input = 0;  ///< index into RunPlan::inputs
   std::string command;    ///< RunRecord::command
   std::string task;       ///< RunRecord::task
-  std::string engine;     ///< ndhull, qhull
+  std::string engine;     ///< of engine_names
   OptionSet options;
   unsigned threads = 1;
   unsigned rounds = 1;
@@ -54,10 +54,14 @@ struct RunLimits {
 /// Limits    a run beyond a limit is a record that says so. Larger sets of the same family (no fewer points,
 /// no
 ///           fewer dimensions) are then not tried: their end is "skipped", with the reason.
+/// Throws    Error kUsage when the plan names an engine that there is not; what RecordFile::write throws.
 /// Progress  one line a run: its number, what it is, what came out, an estimate of the seconds left from what
 ///           similar runs took.
 std::vector<RunRecord> measure(const RunPlan& plan, const RunLimits& limits,
                                const std::vector<RunRecord>& earlier, RecordFile& file);
+
+/// What an engine may be called: "ndhull, qhull, cgal, lrs".
+const char* engine_names();
 
 /// Input `family` of the list of `ndhull generate`, with `count` points; families with a whole of their own
 /// (cube-corners, lattice, cross-polytope) are taken whole where `count` is 0. Name: "sphere 5-d, 1000, seed

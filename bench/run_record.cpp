@@ -75,7 +75,10 @@ void set_result(const ChildResult& result, RunRecord& record) {
   record.end = end_name(result.end);
   record.reason = result.reason;
   record.peak_bytes = result.peak_bytes;
-  if (result.done()) result.values.get_to(record.run);
+  if (!result.done()) return;
+  result.values.get_to(record.run);
+  // What the child did after the call is not the engine's.
+  if (record.run.peak_bytes > 0) record.peak_bytes = record.run.peak_bytes;
 }
 
 double Repeats::median_seconds() const {

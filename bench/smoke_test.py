@@ -20,31 +20,41 @@ def run(*arguments, exit_code=0):
     return done.stdout
 
 
-def facets_of(lines):
-    return [(line["ndhull"]["facets"], line["qhull"]["facets"]) for line in lines]
+def records_of(path):
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
 
 
 def test_both_find_the_same_facets():
     # General position, and coplanar simplices to merge.
     for name, facets in [("2000 s D5 t1", 56576), ("c D8", 16)]:
         path = SCRATCH / "peers.jsonl"
-        table = run("peers", "--only", name, "--rounds", "1", "--json", str(path))
-        lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-        assert facets_of(lines) == [(facets, facets)], (name, lines)
-        assert table.count(f" {facets} ") == 2, table
-        for engine in ("ndhull", "qhull"):
-            record = lines[0][engine]
-            assert record["end"] == "done" and record["peak_bytes"] > 0, record
+        table = run("peers", "--only", name, "--rounds", "1", "--json", str(path), "--quiet")
+        records = records_of(path)
+        assert [(record["engine"], record["facets"]) for record in records] == [("ndhull", facets), ("qhull", facets)]
+        assert table.count(f" {facets:,} ") == 2, table
+        for record in records:
+            assert record["end"] == "done" and record["peak_bytes"] > record["resident_bytes"] > 0, record
             assert 0 <= record["max_facet_width"] < 1e-10, record
 
 
+def test_cgal_and_lrs_find_the_same_facets():
+    path = SCRATCH / "engines.jsonl"
+    table = run("sweep", "--families", "sphere", "--dimensions", "3,4", "--points", "40", "--engines",
+                "ndhull,cgal,lrs,qhull", "--options", "exact", "--rounds", "1", "--json", str(path), "--quiet")  # fmt: skip
+    records = records_of(path)
+    assert len(records) == 8 and "lrs" in table, records
+    for record in records:
+        if record["engine"] == "lrs" and shutil.which("lrs") is None:
+            assert record["end"] == "failed" and "lrslib" in record["reason"], record
+            continue
+        same = next(other for other in records if other["input"] == record["input"])
+        assert record["end"] == "done" and record["facets"] == same["facets"], record
+    run("sweep", "--engines", "ndhull,other", exit_code=1)
+
+
 def test_a_time_limit_is_reported_and_the_bench_goes_on():
-    table = run("peers", "--only", "2000 s D5", "--rounds", "2", "--max-seconds", "0.0001")
+    table = run("peers", "--only", "2000 s D5", "--rounds", "2", "--max-seconds", "0.0001", "--quiet")
     assert table.count("stopped after") == 2, table
-
-
-def records_of(path):
-    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
 
 
 def test_approximate_compares_options_facets_and_width():

@@ -27,14 +27,15 @@ void add_runs(std::size_t input, const SweepOptions& options, RunPlan& plan) {
   for (const OptionSet& set : parse_option_sets(options.option_sets)) {
     for (const std::string& engine : options.engines) {
       if (engine == "qhull" && !set.is_for_qhull()) continue;
+      if ((engine == "cgal" || engine == "lrs") && !set.accuracy.is_exact()) continue;
       for (const unsigned threads : options.threads) {
-        if (engine == "qhull" && threads != options.threads.front()) continue;
+        if (engine != "ndhull" && threads != options.threads.front()) continue;
         plan.runs.push_back({.input = input,
                              .command = "sweep",
                              .task = {},
                              .engine = engine,
                              .options = set,
-                             .threads = engine == "qhull" ? 1 : threads,
+                             .threads = engine == "ndhull" ? threads : 1,
                              .rounds = options.rounds});
       }
     }
@@ -94,7 +95,7 @@ void add_sweep_command(CLI::App& app) {
       ->add_option("--options", options->option_sets,
                    "option sets parted by commas: exact, W0.1, W1% C0.5%, A0.95, width 5%, facets 500")
       ->capture_default_str();
-  add_list("--engines", options->engines, "ndhull, qhull");
+  add_list("--engines", options->engines, engine_names());
   add_list("--seeds", options->seeds, "of the point sets");
   add_list("--threads", options->threads, "of ndhull; 0: all cores");
   command->add_option("--rounds", options->rounds, "runs of each measurement")
