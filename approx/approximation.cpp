@@ -188,9 +188,18 @@ std::vector<double> Approximation::true_widths(const Covering& covering) {
   return widths;
 }
 
-/// Remembers, for each facet that is wider than `width`, the point that makes it so.
-void Approximation::add_offenders(const Covering& covering, const std::vector<double>& widths, double width) {
+/// Remembers, for each facet that is wider than `width`, the point that makes it so. Returns those that are
+/// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
+std::vector<LocatedPoint> Approximation::add_offenders(const Covering& covering,
+                                                       const std::vector<double>& widths, double width) {
   const std::size_t rank = space_->rank();
+  std::vector<std::uint32_t> size_of(widths.size(), 0), row_of(widths.size(), kNone);
+  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
+    if (covering.facet_of[row] == kNone) continue;
+    ++size_of[covering.facet_of[row]];
+    row_of[covering.facet_of[row]] = row;
+  }
+  std::vector<LocatedPoint> above_simplices;
   for (std::size_t facet = 0; facet < widths.size(); ++facet) {
     if (widths[facet] <= width) continue;
     double furthest = -HUGE_VAL;
@@ -203,10 +212,20 @@ void Approximation::add_offenders(const Covering& covering, const std::vector<do
       furthest = dot;
       point = growth_.left_out()[i].point;
     }
-    if (point.valid()) extra_.push_back(point);
+    if (!point.valid()) continue;
+    extra_.push_back(point);
+    if (size_of[facet] > 1) continue;
+    const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
+    const auto plane = growth_.work().complex.plane(SimplexId{row_of[facet]});
+    double gauge = -1.0;
+    for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
+    const auto is_same = [&](const LocatedPoint& other) { return other.point == point; };
+    if (gauge > 0.0 && std::none_of(above_simplices.begin(), above_simplices.end(), is_same))
+      above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
   }
   std::sort(extra_.begin(), extra_.end());
   extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
+  return above_simplices;
 }
 
 /// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
@@ -223,6 +242,7 @@ bool Approximation::keeps_hull(const Covering& covering) const {
 Covering Approximation::cover_width(double width, const CoverEffort& effort) {
   SlabCover cover(growth_.work().complex, *space_, is_convex());
   Covering covering = cover.cover(width, effort);
+  hull_.chosen.refused_merges += close_open_directions(growth_.work().complex, *space_, covering);
   while (!keeps_hull(covering)) {
     width *= 0.75;
     ++hull_.chosen.refused_merges;
@@ -249,7 +269,7 @@ FacetClusters Approximation::run_width() {
   Covering covering;
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
-    const std::uint64_t enough = lengths_.outside_width > 0.0 || round > 4 ? 0 : kManySimplices;
+    const std::uint64_t enough = lengths_.outside_width > 0.0 ? 0 : kManySimplices;
     growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
@@ -258,12 +278,8 @@ FacetClusters Approximation::run_width() {
     const std::vector<double> widths = true_widths(covering);
     const double widest = *std::max_element(widths.begin(), widths.end());
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
-    add_offenders(covering, widths, target);
+    growth_.put_back(add_offenders(covering, widths, target));
     slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
-    if (round % 2 == 1) {  // more growth: the simplices themselves may be too wide
-      outside_width *= 0.7;
-      put_back_above(growth_, outside_width);
-    }
   }
   hull_.chosen.outside_width = outside_width;
   return clusters_of(covering, *space_);
@@ -283,6 +299,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   double best_width = 0.0, log_width = std::log(start_width);
   for (int trial = 0; trial < 16 && (trial == 0 || !growth_.is_late()); ++trial) {
     Covering covering = cover.cover(std::exp(log_width), effort);
+    if (covering.planes.size() <= count) close_open_directions(growth_.work().complex, *space_, covering);
     const bool is_hull = keeps_hull(covering);
     const double log_count = std::log(static_cast<double>(covering.planes.size()));
     if (covering.planes.size() <= count) {

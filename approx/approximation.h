@@ -39,7 +39,8 @@ class Approximation {
   }
   bool keeps_hull(const Covering& covering) const;
   std::vector<double> true_widths(const Covering& covering);
-  void add_offenders(const Covering& covering, const std::vector<double>& widths, double width);
+  std::vector<LocatedPoint> add_offenders(const Covering& covering, const std::vector<double>& widths,
+                                          double width);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();
