@@ -39,6 +39,12 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
                                   ->type_name("FILE")
                                   ->check(path_name());
   command.add_flag("--facet-list", request.facet_list, "put every facet into the report")->needs(report);
+  command
+      .add_option(
+          "--curve", request.curve_path,
+          "write facets against certified width, from this hull to coarser ones: FILE.csv and FILE.svg")
+      ->type_name("FILE")
+      ->check(path_name());
   command.add_flag("--outer-volume", request.outer_volume,
                    "volume below the outer planes however long it takes; default: when it costs little");
   command

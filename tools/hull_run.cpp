@@ -23,6 +23,7 @@
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
 #include "tools/selection_options.h"
+#include "tools/trade_curve.h"
 
 namespace ndhull {
 namespace {
@@ -41,6 +42,11 @@ std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
   if (!request.formats.empty()) outputs.push_back({"--format", "-"});
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  if (!request.curve_path.empty()) {
+    const CurvePaths paths = curve_paths(request.curve_path);
+    outputs.push_back({"--curve", paths.table});
+    outputs.push_back({"--curve", paths.picture});
+  }
   return outputs;
 }
 
@@ -67,6 +73,7 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
           {"vertices", path_or_null(request.vertices_path)},
           {"report", path_or_null(request.report_path)},
           {"facet_list", request.facet_list},
+          {"curve", path_or_null(request.curve_path)},
           {"format", formats},
           {"verify", verify},
           {"progress", request.progress},
@@ -215,6 +222,16 @@ int run_hull(const HullRequest& request) {
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
   if (!request.report_path.empty()) write_report(request.report_path, hull, context);
+  if (!request.curve_path.empty()) {
+    progress.show_phase("curve");
+    hull_options.progress = nullptr;
+    hull_options.limits = limits_left(request.options.limits, seconds_since(start), resident_memory_bytes());
+    write_trade_curve(
+        curve_paths(request.curve_path),
+        trade_curve(points.view(), hull_options, hull, context.total_seconds - context.read_seconds),
+        request.options.unit_cube ? "unit cube" : "input");
+    progress.clear();
+  }
   if (is_summary) {
     OutputFile file("-");
     file.write(hull_summary(hull, context));

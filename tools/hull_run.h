@@ -23,13 +23,15 @@ struct HullRequest {
   std::string vertices_path;
   std::string report_path;
   bool facet_list = false;
+  std::string curve_path;            ///< table and picture of facets against width
   std::vector<std::string> formats;  ///< to standard output, in this order
   std::optional<VerifyMode> verify;
   bool progress = false;
   bool quiet = false;
 
   bool has_output() const {
-    return !planes_path.empty() || !vertices_path.empty() || !report_path.empty() || !formats.empty();
+    return !planes_path.empty() || !vertices_path.empty() || !report_path.empty() || !curve_path.empty() ||
+           !formats.empty();
   }
 };
 

@@ -95,6 +95,30 @@ TEST(ApproximateHullLaw, NumberOfFacetsIsMet) {
   }
 }
 
+/// Cubes of gaussian numbers: like measurements, most near the middle and a few far out along the axes.
+PointSet heavy_tailed_points(std::size_t count, std::size_t dimension) {
+  PointSet set = family_points(PointFamily::kGaussian, count, dimension, 11);
+  for (double& value : set.coordinates) value = value * value * value;
+  return set;
+}
+
+// Wide slabs of a hull with long spikes cover it and leave directions open. Those are closed by few
+// simplices, not by slabs so small that none is open.
+TEST(ApproximateHullLaw, WideFacetsOfSpikyHullsAreFew) {
+  const PointSet set = heavy_tailed_points(2000, 6);
+  for (const double percent : {10.0, 20.0, 40.0}) {
+    SCOPED_TRACE(percent);
+    HullOptions options;
+    options.accuracy.width = {percent, true};
+    const Hull hull = hull_of(set, options);
+    EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set));
+    if (percent >= 20.0) {
+      EXPECT_LE(hull.facet_count(), 4 * set.dimension);
+    }
+    expect_approximate_laws(hull, set.view());
+  }
+}
+
 TEST(ApproximateHullLaw, MoreFacetsAreNarrower) {
   const PointSet set = family_points(PointFamily::kSphere, 500, 5, 7);
   double last = HUGE_VAL;
