@@ -170,6 +170,12 @@ def test_phases_names_the_phases():
     assert all(word in table for word in ("total", "growth", "certify", "merge")), table
 
 
+def test_micro_measures_the_phases():
+    table = run("micro", "--filter", "5-d, 500, exact", "--min-seconds", "0.01")
+    rows = [line for line in table.splitlines() if line.startswith("sphere 5-d, 500, exact")]
+    assert len(rows) == 1 and all(f"{word}=" in rows[0] for word in ("facets", "growth", "certify", "merge")), table
+
+
 def test_rays_counts_its_recall():
     table = run("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big").splitlines()
     words = table[-1].split()
