@@ -41,6 +41,8 @@ constexpr std::size_t kFewLeftOut = 4096;
 constexpr std::size_t kFewFacets = 256;
 /// Rounds of smaller slabs and more growth before the best so far is taken.
 constexpr int kRounds = 24;
+/// Of a target number, in which the fits see more of the points left out.
+constexpr int kCountRounds = 5;
 
 }  // namespace
 
@@ -327,6 +329,13 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   return best;
 }
 
+/// Over all points; +inf of none.
+double Approximation::widest_of(const Covering& covering) {
+  if (covering.planes.empty()) return HUGE_VAL;
+  const std::vector<double> widths = true_widths(covering);
+  return *std::max_element(widths.begin(), widths.end());
+}
+
 FacetClusters Approximation::run_count() {
   const std::uint64_t count = accuracy_.facets;
   const CoverEffort quick{.final_fit_steps = 0};
@@ -348,21 +357,26 @@ FacetClusters Approximation::run_count() {
   locate_left_out(outside_width);
   make_space(true);
   Covering best = cover_count(count, quick, width);
-  double best_width = HUGE_VAL;
-  for (int round = 0; round < 2 && !best.planes.empty() && !growth_.is_late(); ++round) {
+  double best_width = widest_of(best);
+  // Points left out that the fits did not see come to them, until the widths that they saw are the true ones.
+  const auto is_true = [&](const Covering& covering, double widest) {
+    return widest <= covering.widest * 1.002;
+  };
+  CoverEffort effort = quick;
+  for (int round = 0; round < kCountRounds && !best.planes.empty() && !growth_.is_late(); ++round) {
     add_offenders(best, true_widths(best), best.widest * (1.0 + 1e-12));
     make_space(true);
     // The better search needs fewer facets: a smaller width will do.
-    Covering better =
-        cover_count(count, CoverEffort{.choices = 2, .refits = 2}, 0.97 * hull_.chosen.slab_width);
-    if (better.planes.empty()) break;
-    const std::vector<double> widths = true_widths(better);
-    const double widest = *std::max_element(widths.begin(), widths.end());
-    const bool is_true = widest <= better.widest * 1.002;
-    if (widest >= best_width) break;
-    best_width = widest;
-    best = std::move(better);
-    if (is_true) break;
+    const bool is_better_search = is_true(best, best_width) || 2 * round >= kCountRounds;
+    if (is_better_search) effort = CoverEffort{.choices = 2, .refits = 2};
+    Covering next = cover_count(count, effort, (is_better_search ? 0.97 : 1.0) * hull_.chosen.slab_width);
+    const double widest = widest_of(next);
+    const bool is_end = is_better_search && (next.planes.empty() || is_true(next, widest));
+    if (widest < best_width) {
+      best_width = widest;
+      best = std::move(next);
+    }
+    if (is_end) break;
   }
   if (best.planes.empty())
     best = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());

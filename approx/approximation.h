@@ -32,6 +32,7 @@ class Approximation {
   void make_space(bool with_left_out);
   Covering cover_width(double width, const CoverEffort& effort);
   Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width);
+  double widest_of(const Covering& covering);
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.
   bool is_convex() const {
