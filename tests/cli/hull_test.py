@@ -16,7 +16,7 @@ KEYS = """ndhull input status options length_unit vertices facets simplicial_fac
 OPTIONS = """width facets objective outside_width centrum_radius max_cosine width_cap
     max_facets max_seconds max_memory unit_cube triangulate threads seed largest
     select min_area most_merged bounded outer_volume planes plane_kind vertices report
-    facet_list format verify progress quiet""".split()
+    facet_list curve format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
 # A hull of some millions of facets: it takes long enough to be interrupted, and its few points make an end quick.
 LONG_RUN = "400 s D9 t1"
