@@ -36,6 +36,8 @@ void add_phases_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 /// `scaling`: how time and memory grow.
 void add_scaling_command(CLI::App& app);
+/// `selections`: what 20 outer planes enclose.
+void add_selections_command(CLI::App& app);
 /// `sweep`: families, dimensions, numbers of points, options.
 void add_sweep_command(CLI::App& app);
 /// `rays`: the largest facets without the hull.

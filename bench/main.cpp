@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   ndhull::add_phases_command(app);
   ndhull::add_micro_command(app);
   ndhull::add_rays_command(app);
+  ndhull::add_selections_command(app);
   ndhull::add_scaling_command(app);
   ndhull::add_sweep_command(app);
   ndhull::add_report_command(app);
