@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-/// Depths are kept in single precision, rounded up.
-constexpr double kRoom = 1.0 - 3e-7;
-constexpr float kDepthUp = 1.0f + 1.2e-7f;
-
 bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
 
 void count_up(std::uint8_t& count) {
@@ -255,7 +251,7 @@ void SlabCover::gather_strays(Covering& covering, double width) {
     }
     std::sort(hosts.begin(), hosts.end());
     hosts.erase(std::unique(hosts.begin(), hosts.end()), hosts.end());
-    double best_depth = kRoom * width;
+    double best_depth = kDepthRoom * width;
     std::uint32_t best = kNone;
     for (const std::uint32_t host : hosts) {
       const double depth = depth_below(covering.planes[host], members(part));
@@ -266,7 +262,7 @@ void SlabCover::gather_strays(Covering& covering, double width) {
     if (best == kNone) continue;
     for (const std::uint32_t simplex : members(part)) {
       covering.facet_of[simplex] = best;
-      depth_of_[simplex] = kDepthUp * static_cast<float>(best_depth);
+      depth_of_[simplex] = rounded_up_depth(best_depth);
     }
   }
 }

@@ -10,9 +10,6 @@ namespace {
 constexpr std::size_t kWorthTurning = 64;
 /// Numbers that are multiplied with a direction faster than the few that a small slab needs are picked out.
 constexpr std::size_t kFewProducts = 4096;
-/// Depths are kept in single precision, rounded up; the width asked for holds all the same.
-constexpr double kRoom = 1.0 - 3e-7;
-constexpr float kUp = 1.0f + 1.2e-7f;
 constexpr float kOutside = -1.0f;
 
 }  // namespace
@@ -43,7 +40,7 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
 template <typename DotOf>
 void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch,
                        const DotOf& dot_of) const {
-  const double least = plane.height - kRoom * width;
+  const double least = plane.height - kDepthRoom * width;
   const auto depth_of = [&](std::uint32_t simplex) {
     double low = HUGE_VAL;
     for (const PointId id : complex_.vertices(SimplexId{simplex})) {
@@ -51,7 +48,7 @@ void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double widt
       if (dot < least) return kOutside;
       low = std::min(low, dot);
     }
-    return kUp * static_cast<float>(std::max(0.0, plane.height - low));
+    return rounded_up_depth(std::max(0.0, plane.height - low));
   };
   const auto meet = [&](std::uint32_t simplex) {
     scratch.stamp[simplex] = scratch.flood;
@@ -126,7 +123,7 @@ void SlabGrower::flood_from_fitted_plane(GrownSlab& slab, double width, const Co
   slab.plane = measure_plane(space_, slab.plane.normal, vertices, scratch.fit);
   if (slab.plane.width() > width)
     slab.plane = narrow_plane(space_, slab.plane, vertices, 4 * effort.fit_steps, scratch.fit);
-  slab.depths.assign(1, kUp * static_cast<float>(std::max(0.0, slab.plane.width())));
+  slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
   flood_measured(slab.seed, slab.plane, width, scratch);
 }
 

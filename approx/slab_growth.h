@@ -21,6 +21,11 @@ struct CoverEffort {
   unsigned final_fit_steps = 64;
 };
 
+/// Depths are kept in single precision, rounded up: what is taken into a slab of some width is less deep by
+/// this part of it, so that the width holds all the same.
+inline constexpr double kDepthRoom = 1.0 - 3e-7;
+inline float rounded_up_depth(double depth) { return (1.0f + 1.2e-7f) * static_cast<float>(depth); }
+
 /// A slab as it grew.
 struct GrownSlab {
   std::uint32_t seed = 0;
