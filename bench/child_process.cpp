@@ -2,9 +2,11 @@
 // against the time limit, so that neither a hanging child nor a long answer blocks us.
 #include "bench/child_process.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -19,6 +21,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -136,6 +139,46 @@ ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max
     result.reason = fmt::format("stopped after {} s", max_seconds);
   }
   return result;
+}
+
+ProgramRun run_program(const std::vector<std::string>& words, const std::string& input_path,
+                       const std::string& output_path) {
+  constexpr int kNotStarted = 127;
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const int input = open(input_path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int output = open(output_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (input < 0 || output < 0) fail("open");
+  const Stopwatch watch;
+  const pid_t child = fork();
+  if (child < 0) fail("fork");
+  if (child == 0) {
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    if (dup2(input, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0)
+      execvp(arguments.front(), arguments.data());
+    _exit(kNotStarted);
+  }
+  int status = 0;
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0) {
+    if (errno != EINTR) fail("wait4");
+  }
+  const double wall_seconds = watch.wall_seconds();
+  close(input);
+  close(output);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotStarted)
+    throw std::runtime_error(words.front() + " cannot be started: is it installed?");
+  if (WIFSIGNALED(status))
+    throw std::runtime_error(fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status)));
+  if (WEXITSTATUS(status) != 0)
+    throw std::runtime_error(fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status)));
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {wall_seconds, seconds(usage.ru_utime) + seconds(usage.ru_stime), peak_bytes_of(usage)};
 }
 
 void limit_address_space(std::uint64_t bytes) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace ndhull {
 
@@ -26,6 +27,18 @@ struct ChildResult {
 /// Throws    std::system_error when no process can be made.
 /// Not promised  destructors: the child ends without running those of static objects.
 ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds);
+
+/// What a program took from its start to its end, starting it and reading and writing its files included.
+struct ProgramRun {
+  double wall_seconds = 0.0, cpu_seconds = 0.0;
+  std::uint64_t peak_bytes = 0;  ///< largest resident memory
+};
+
+/// Runs a program, found as the shell finds it, from file to file; what it says on standard error goes where
+/// ours goes. It ends with the process that waits for it: call it in a child that has a time limit.
+/// Throws std::runtime_error when it cannot be started, or ends with anything but exit code 0.
+ProgramRun run_program(const std::vector<std::string>& words, const std::string& input_path,
+                       const std::string& output_path);
 
 /// The largest address space of this process from now on, so that allocations beyond it fail; 0: as it is.
 /// For a child that runs what has no limit of its own.

@@ -26,6 +26,8 @@ struct HasRegressed : std::runtime_error {
 void add_compare_command(CLI::App& app);
 /// `counts`: a small fixed set, its work counted.
 void add_counts_command(CLI::App& app);
+/// `halfspaces`: intersections of halfspaces, as whole programs.
+void add_halfspaces_command(CLI::App& app);
 /// `micro`: the phases of small hulls.
 void add_micro_command(CLI::App& app);
 /// `peers`: ndhull and Qhull side by side.

@@ -36,16 +36,9 @@ const DimensionRun* find_run(const std::vector<DimensionRun>& runs, std::size_t 
 
 // "5.21 (4.9 .. 5.5)": of rounds that both engines have.
 std::string ratio_cell(const DimensionRun& ndhull, const DimensionRun& qhull) {
-  std::vector<double> ratios;
-  for (const RunRecord& ours : ndhull.repeats.done) {
-    for (const RunRecord& theirs : qhull.repeats.done) {
-      if (ours.round == theirs.round) ratios.push_back(theirs.run.wall_seconds / ours.run.wall_seconds);
-    }
-  }
-  const double ratio = qhull.repeats.median_seconds() / ndhull.repeats.median_seconds();
-  if (ratios.size() < 2) return short_number(ratio);
-  const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
-  return fmt::format("{} ({} .. {})", short_number(ratio), short_number(*low), short_number(*high));
+  const std::string ratio = short_number(qhull.repeats.median_seconds() / ndhull.repeats.median_seconds());
+  const std::string spread = ratio_spread(ndhull.repeats, qhull.repeats);
+  return spread.empty() ? ratio : fmt::format("{} ({})", ratio, spread);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "approx/hull.h"
 #include "bench/bench_cases.h"
@@ -40,8 +41,10 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
 /// W0.1 C0.01"). Time: qh_qhull, which is what Qhull prints as "seconds to compute hull (after input)": it
 /// merges and finds the outer planes as well; reading, checks of the output and printing are not in it.
 /// Throws    std::runtime_error with Qhull's exit code and first line of message.
-/// Leaks     Qhull's memory: call it in a child process.
-HullRun run_qhull(const BenchInput& input, const std::string& options);
+/// Planes    `outer_planes`, where given, gets a row normal, offset for each facet, raised to its outer
+/// plane. Leaks     Qhull's memory: call it in a child process.
+HullRun run_qhull(const BenchInput& input, const std::string& options,
+                  std::vector<double>* outer_planes = nullptr);
 
 /// CGAL's Triangulation of the points, 3-d to 7-d. `facets` are its infinite cells: simplices, coplanar ones
 /// not merged. Time: inserting all points. Throws std::runtime_error in other dimensions.

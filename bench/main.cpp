@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   ndhull::add_joggle_command(app);
   ndhull::add_peers_command(app);
   ndhull::add_approximate_command(app);
+  ndhull::add_halfspaces_command(app);
   ndhull::add_phases_command(app);
   ndhull::add_micro_command(app);
   ndhull::add_rays_command(app);

@@ -33,16 +33,6 @@ bool is_big(const HullRun& run) {
   return (run.detail.is_object() ? run.detail.value("simplices", facets) : facets) >= kManySimplices;
 }
 
-std::string seconds_with_spread(const Repeats& repeats) {
-  if (repeats.is_empty()) return "-";
-  std::vector<double> seconds;
-  for (const RunRecord& record : repeats.done) seconds.push_back(record.run.wall_seconds);
-  const auto [low, high] = std::minmax_element(seconds.begin(), seconds.end());
-  if (seconds.size() == 1) return short_number(*low);
-  return fmt::format("{} ({} .. {})", short_number(repeats.median_seconds()), short_number(*low),
-                     short_number(*high));
-}
-
 }  // namespace
 
 void MeasureOptions::add_options(CLI::App& command) {

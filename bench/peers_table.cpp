@@ -56,19 +56,6 @@ std::vector<std::string> engine_cells(const Repeats& repeats) {
           fmt::format("{:.0f}", static_cast<double>(repeats.peak_bytes()) / (1024.0 * 1024.0))};
 }
 
-// "(4.9 .. 5.5)": ratios of rounds that both have; empty for one.
-std::string ratio_spread(const Repeats& ndhull, const Repeats& other) {
-  std::vector<double> ratios;
-  for (const RunRecord& ours : ndhull.done) {
-    for (const RunRecord& theirs : other.done) {
-      if (ours.round == theirs.round) ratios.push_back(theirs.run.wall_seconds / ours.run.wall_seconds);
-    }
-  }
-  if (ratios.size() < 2) return "";
-  const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
-  return fmt::format("{} .. {}", short_number(*low), short_number(*high));
-}
-
 Table table_for(const std::vector<Peers>& all, const std::string& engine) {
   const std::string name = engine == "qhull" ? "Qhull" : engine;
   Table table{

@@ -47,7 +47,8 @@ class Messages {
 
 // Qhull leaves an error by longjmp to here: nothing that owns memory lives in this frame. Returns its exit
 // code.
-int compute(qhT* qh, char* command, coordT* points, int count, int dimension, HullRun& run) {
+int compute(qhT* qh, char* command, coordT* points, int count, int dimension, HullRun& run,
+            std::vector<double>* outer_planes) {
   const int exit_code = setjmp(qh->errexit);
   if (exit_code != 0) return exit_code;
   qh->NOerrexit = False;
@@ -69,6 +70,9 @@ int compute(qhT* qh, char* command, coordT* points, int count, int dimension, Hu
     run.max_facet_width = std::max(run.max_facet_width, outer - inner);
     run.max_outer_offset = std::max(run.max_outer_offset, outer);
     run.min_inner_offset = std::min(run.min_inner_offset, inner);
+    if (outer_planes == nullptr) continue;
+    outer_planes->insert(outer_planes->end(), facet->normal, facet->normal + dimension);
+    outer_planes->push_back(facet->offset - outer);
   }
   qh->NOerrexit = True;
   return 0;
@@ -76,7 +80,7 @@ int compute(qhT* qh, char* command, coordT* points, int count, int dimension, Hu
 
 }  // namespace
 
-HullRun run_qhull(const BenchInput& input, const std::string& options) {
+HullRun run_qhull(const BenchInput& input, const std::string& options, std::vector<double>* outer_planes) {
   const PointSet& points = input.qhull_points();
   coordT* data = const_cast<coordT*>(points.coordinates.data());  // not changed: QbB scales a copy
   std::string command = "qhull " + options;
@@ -89,7 +93,7 @@ HullRun run_qhull(const BenchInput& input, const std::string& options) {
   char* arguments[] = {command.data(), nullptr};
   qh_init_A(qh, nullptr, messages.file(), messages.file(), 1, arguments);
   const int exit_code = compute(qh, command.data(), data, static_cast<int>(points.rows()),
-                                static_cast<int>(points.dimension), run);
+                                static_cast<int>(points.dimension), run, outer_planes);
   if (exit_code != 0) {
     throw std::runtime_error(fmt::format("exit code {}: {}", exit_code, messages.first_line()));
   }

@@ -41,6 +41,14 @@ std::vector<Due> turns_of(const RunPlan& plan) {
   return turns;
 }
 
+// "562 facets, width 0.1, ": what the run has of these.
+std::string outcome_of(const HullRun& run) {
+  if (run.facets > 0)
+    return fmt::format("{} facets, width {}, ", grouped_number(run.facets),
+                       short_number(run.max_facet_width));
+  return run.vertices > 0 ? fmt::format("{} vertices, ", grouped_number(run.vertices)) : "";
+}
+
 class Measurement {
  public:
   Measurement(const RunPlan& plan, const RunLimits& limits, const std::vector<RunRecord>& earlier,
@@ -68,7 +76,7 @@ class Measurement {
     const PlannedRun& run = plan_.runs[due.run];
     const PlannedInput& input = plan_.inputs[run.input];
     return {.command = run.command,
-            .group = {},
+            .group = run.group,
             .task = run.task,
             .key = {input.name, run.engine, run.options.text, run.threads},
             .round = due.round,
@@ -194,8 +202,7 @@ class Measurement {
     }
     const std::string outcome =
         record.is_done()
-            ? fmt::format("{} facets, width {}, {} s{}", grouped_number(record.run.facets),
-                          short_number(record.run.max_facet_width), short_number(record.run.wall_seconds),
+            ? fmt::format("{}{} s{}", outcome_of(record.run), short_number(record.run.wall_seconds),
                           record.is_complete() ? "" : ", " + record.status())
             : record.end + ": " + record.reason;
     fmt::print(stderr, "{:>4}/{} {:<34} {:<6} {:<12} {}  [{:.0f} s, about {:.0f} s left]\n", next_ + 1,

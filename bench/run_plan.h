@@ -23,10 +23,11 @@ struct PlannedInput {
 
 /// One run, and how often it is repeated.
 struct PlannedRun {
-  std::size_t input = 0;  ///< index into RunPlan::inputs
-  std::string command;    ///< RunRecord::command
-  std::string task;       ///< RunRecord::task
-  std::string engine;     ///< of engine_names
+  std::size_t input = 0;   ///< index into RunPlan::inputs
+  std::string command;     ///< RunRecord::command
+  std::string task;        ///< RunRecord::task
+  std::string group = {};  ///< RunRecord::group
+  std::string engine;      ///< of engine_names
   OptionSet options;
   unsigned threads = 1;
   unsigned rounds = 1;

@@ -8,6 +8,7 @@
 
 #include "bench/machine.h"
 #include "bench/sample.h"
+#include "bench/table.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -99,6 +100,28 @@ void add_repeat(const RunRecord& record, Repeats& repeats) {
   } else {
     repeats.failure = record.reason;
   }
+}
+
+std::string seconds_with_spread(const Repeats& repeats) {
+  if (repeats.is_empty()) return "-";
+  std::vector<double> seconds;
+  for (const RunRecord& record : repeats.done) seconds.push_back(record.run.wall_seconds);
+  const auto [low, high] = std::minmax_element(seconds.begin(), seconds.end());
+  if (seconds.size() == 1) return short_number(*low);
+  return fmt::format("{} ({} .. {})", short_number(repeats.median_seconds()), short_number(*low),
+                     short_number(*high));
+}
+
+std::string ratio_spread(const Repeats& ndhull, const Repeats& other) {
+  std::vector<double> ratios;
+  for (const RunRecord& ours : ndhull.done) {
+    for (const RunRecord& theirs : other.done) {
+      if (ours.round == theirs.round) ratios.push_back(theirs.run.wall_seconds / ours.run.wall_seconds);
+    }
+  }
+  if (ratios.size() < 2) return {};
+  const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
+  return fmt::format("{} .. {}", short_number(*low), short_number(*high));
 }
 
 std::vector<RunRecord> read_records(const std::string& path) {

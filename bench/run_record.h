@@ -63,6 +63,13 @@ struct Repeats {
 };
 void add_repeat(const RunRecord& record, Repeats& repeats);
 
+/// "0.171 (0.17 .. 0.18)": the median, and with more than one run the smallest and the largest.
+std::string seconds_with_spread(const Repeats& repeats);
+
+/// "4.9 .. 5.5": the smallest and the largest of `other`'s seconds over `ndhull`'s in one round; empty when
+/// fewer than two rounds have both.
+std::string ratio_spread(const Repeats& ndhull, const Repeats& other);
+
 /// The records of a file of JSON lines, in order. A last line that is not whole (the writer was stopped) is
 /// left out. Throws Error kFileMissing; kBadHeader: a line is no record, the message has its number.
 std::vector<RunRecord> read_records(const std::string& path);

@@ -166,6 +166,32 @@ def test_all_makes_a_folder_with_the_report():
     assert any(record.get("task") == "counts" for record in records_of(folder / "scaling.jsonl"))
 
 
+def test_halfspaces_have_the_same_vertices_as_qhalf():
+    path = SCRATCH / "halfspaces.jsonl"
+    words = ["halfspaces", "--only", "1000 in 6-d", "--rounds", "2", "--json", str(path), "--quiet"]
+    table = run(*words)
+    records = records_of(path)
+    assert len(records) == 8 and table.count("1000 in 6-d") == 2, table
+    if shutil.which("qhalf") is None:
+        assert "is it installed" in table, table
+        print("not done: the program qhalf is not installed")
+        return
+    for ours, theirs in ((records[0], records[1]), (records[4], records[5])):
+        assert (ours["engine"], theirs["engine"], ours["input"]) == ("ndhull", "qhull", theirs["input"]), records
+        assert ours["vertices"] == theirs["vertices"] > 10000, (ours, theirs)
+        furthest = [record["detail"]["furthest_vertex"] for record in (ours, theirs)]
+        assert abs(furthest[0] / furthest[1] - 1) < 1e-9 and furthest[0] > 1, furthest
+        assert min(ours["peak_bytes"], theirs["peak_bytes"]) > 2**20, (ours, theirs)
+    # What is there is kept; a program that is not there is reported.
+    assert "1000 in 6-d" in run(*words, "--resume") and records_of(path) == records
+    run("halfspaces", "--only", "300 in 8-d", "--rounds", "1", "--ndhull", "/nowhere/ndhull", "--max-seconds", "0.5",
+        "--json", str(path), "--quiet", exit_code=3)  # fmt: skip
+    ends = [(record["end"], record["reason"]) for record in records_of(path)]
+    assert ends[0][0] == "failed" and "/nowhere/ndhull cannot be started" in ends[0][1], ends
+    assert ends[1] == ("time_limit", "stopped after 0.5 s"), ends
+    run("halfspaces", "--only", "no such set", exit_code=1)
+
+
 def test_phases_names_the_phases():
     table = run("phases", "--only", "c D8", "--rounds", "1")
     assert all(word in table for word in ("total", "growth", "certify", "merge")), table
