@@ -1,8 +1,9 @@
 // `ndhull-bench peers`. Each run is a child process; the engines take turns, and who starts changes with the
 // round, so that a machine that warms up or throttles favours neither.
+#include "bench/peers.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "bench/bench_cases.h"
@@ -15,25 +16,20 @@
 namespace ndhull {
 namespace {
 
-struct PeersOptions {
-  CaseSelection selection;
-  std::vector<std::string> engines{"ndhull", "qhull"};
-  unsigned rounds = 3;
-  bool skip_slow = false;
-  MeasureOptions measuring;
-};
+void run_peers(const PeersOptions& options) {
+  if (options.selection.print_list()) return;
+  const std::vector<RunRecord> records = measure_with(peers_plan(options), options.measuring);
+  fmt::print("{}\n", machine_line(describe_machine()));
+  for (const Table& table : peers_tables(records)) fmt::print("{}", table.as_text());
+  throw_if_ndhull_failed(records);
+}
+
+}  // namespace
 
 RunPlan peers_plan(const PeersOptions& options) {
   RunPlan plan;
   for (const BenchCase& bench_case : options.selection.cases()) {
-    const BenchInput input = bench_case.load(options.selection.data_folder);
-    plan.inputs.push_back(
-        {.name = bench_case.name,
-         .points = {{"points", input.points.rows()},
-                    {"dimension", input.points.dimension},
-                    {"is_sphere_set", bench_case.is_sphere_set}},
-         .unit_cube = bench_case.unit_cube,
-         .load = [bench_case, folder = options.selection.data_folder] { return bench_case.load(folder); }});
+    plan.inputs.push_back(case_input(bench_case, options.selection.data_folder));
     for (const std::string& engine : options.engines) {
       const bool is_slow = engine != "ndhull" && bench_case.is_slow_for_qhull();
       if (is_slow && options.skip_slow) continue;
@@ -47,16 +43,6 @@ RunPlan peers_plan(const PeersOptions& options) {
   }
   return plan;
 }
-
-void run_peers(const PeersOptions& options) {
-  if (options.selection.print_list()) return;
-  const std::vector<RunRecord> records = measure_with(peers_plan(options), options.measuring);
-  fmt::print("{}\n", machine_line(describe_machine()));
-  for (const Table& table : peers_tables(records)) fmt::print("{}", table.as_text());
-  throw_if_ndhull_failed(records);
-}
-
-}  // namespace
 
 void add_peers_command(CLI::App& app) {
   const auto options = std::make_shared<PeersOptions>();

@@ -3,15 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "bench/approximate_tables.h"
 #include "bench/dimension_charts.h"
+#include "bench/halfspaces.h"
+#include "bench/joggle.h"
 #include "bench/measure_options.h"
 #include "bench/peers_table.h"
+#include "bench/phases.h"
+#include "bench/rays.h"
 #include "bench/run_csv.h"
 #include "bench/scaling_tables.h"
+#include "bench/selections.h"
 
 namespace ndhull {
 namespace {
@@ -98,9 +105,24 @@ void add_charts(std::vector<AnyChart> charts, ReportSection& section) {
   for (AnyChart& chart : charts) section.charts.emplace_back(std::move(chart));
 }
 
+// What these commands measure is no hull by an engine under options, and has tables of its own.
+bool is_of_hull(const RunRecord& record) {
+  static const std::set<std::string> kOthers{"halfspaces", "selections", "joggle", "rays"};
+  return !kOthers.contains(record.command);
+}
+
+ReportSection tables_section(std::string title, std::vector<Table> tables) {
+  ReportSection section;
+  section.title = std::move(title);
+  section.tables = std::move(tables);
+  return section;
+}
+
 }  // namespace
 
-std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records) {
+std::vector<ReportSection> report_sections(const std::vector<RunRecord>& all_records) {
+  std::vector<RunRecord> records;
+  std::copy_if(all_records.begin(), all_records.end(), std::back_inserter(records), is_of_hull);
   const std::vector<std::vector<DimensionRun>> families = runs_by_family(records);
   std::vector<ReportSection> sections;
 
@@ -113,9 +135,7 @@ std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records
              runtime);
   runtime.tables.push_back(ratio_table(families));
 
-  ReportSection& peers = sections.emplace_back();
-  peers.title = "Side by side";
-  peers.tables = peers_tables(records);
+  sections.push_back(tables_section("Side by side", peers_tables(records)));
 
   ReportSection& width = sections.emplace_back();
   width.title = "Facet width against dimension";
@@ -149,10 +169,21 @@ std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records
   phases.title = "Phases";
   phases.text = "Where ndhull's time goes. Rest: the frame, and starting the process' first call.";
   add_charts(phase_charts(families), phases);
+  phases.tables.push_back(phases_table(records));
 
-  ReportSection& growth = sections.emplace_back();
-  growth.title = "Growth";
-  growth.tables = scaling_tables(records);
+  sections.push_back(tables_section("Growth", scaling_tables(records)));
+  sections.push_back(tables_section("Halfspaces", {halfspaces_table(all_records)}));
+  sections.push_back(tables_section("Selections", selections_tables(all_records)));
+  sections.push_back(tables_section("Largest facets", rays_tables(all_records)));
+
+  ReportSection& joggle = sections.emplace_back();
+  joggle.title = "Joggle";
+  joggle.text =
+      "How often joggled input has a precision problem, beside the tables of Qhull's manual. ndhull counts "
+      "decisions about a point that is added; Qhull also nearly singular planes and facets that are not "
+      "clearly convex.";
+  add_charts(joggle_charts(all_records), joggle);
+  joggle.tables = joggle_tables(all_records);
 
   ReportSection& all = sections.emplace_back();
   all.title = "All measurements";

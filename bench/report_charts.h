@@ -19,7 +19,8 @@ struct ReportSection {
 };
 
 /// Runtime, facet width and bytes against the dimension, facets against width, phases, ratios of Qhull's time
-/// to ndhull's, growth, approximate hulls, and all measurements. Sections for which there are no runs are
+/// to ndhull's, growth, approximate hulls, halfspaces, selections, largest facets, joggle, and all
+/// measurements of hulls. Sections for which there are no runs are
 /// left out.
 std::vector<ReportSection> report_sections(const std::vector<RunRecord>& records);
 

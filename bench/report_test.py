@@ -114,6 +114,32 @@ def test_markdown_has_the_numbers_of_the_results():
     assert "Qhull's seconds over ndhull's" in text, text
 
 
+def test_every_command_has_its_tables():
+    others = SCRATCH / "others.jsonl"
+    lines = ""
+    for words in (("halfspaces", "--only", "1000 in 6-d, distance 1 to", "--rounds", "1", "--ndhull", NDHULL),
+                  ("selections", "--only", "500 D4"), ("joggle", "--only", "c D3", "--runs", "20"),
+                  ("phases", "--only", "c D8", "--rounds", "1"),
+                  ("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big"),
+                  ("approximate", "--only", "2000 s D5", "--rounds", "1", "--skip-qhull", "--widths", "20%")):  # fmt: skip
+        path = SCRATCH / f"{words[0]}.jsonl"
+        run(PROGRAM, *words, "--json", path, *(["--quiet"] if words[0] != "approximate" else []))
+        lines += path.read_text(encoding="utf-8")
+    others.write_text(lines, encoding="utf-8")
+    text = run(PROGRAM, "report", RESULTS, others, "--markdown", "-o", "-")
+    for title in ("Intersection of halfspaces", "What 20 outer planes enclose", "Joggled unit cube", "Where the seconds go",
+                  "The largest facets by rays", "Approximate hulls beside the exact one"):  # fmt: skip
+        assert f"### {title}" in text, (title, text)
+    run(PROGRAM, "report", RESULTS, others, "-o", SCRATCH / "every.html")
+    html = (SCRATCH / "every.html").read_text(encoding="utf-8")
+    charts = [words_of(picture) for picture in charts_of(html)]
+    assert sum("share of joggles with a precision problem" in words for words in charts) == 1, charts
+    # Only hulls are in the list of all measurements.
+    rows = re.findall(r"<tr>(.*?)</tr>", html[html.index("All measurements</h2>"):])
+    assert any("c D8" in row for row in rows) and not any("QJ" in row or "intersect" in row for row in rows)
+    run(PROGRAM, "report", SCRATCH / "joggle.jsonl", "-o", SCRATCH / "joggle.html")
+
+
 def test_two_rows_are_what_the_programs_say():
     points = run(NDHULL, "generate", "sphere", "-d", "5", "-n", "60", "--seed", "1", "-o", "-")
     row = {(record["engine"], record["options"]): record for record in measured

@@ -252,6 +252,16 @@ PlannedInput generated_input(const std::string& family, std::size_t dimension, s
           }};
 }
 
+PlannedInput case_input(const BenchCase& bench_case, const std::string& data_folder) {
+  const BenchInput input = bench_case.load(data_folder);
+  return {.name = bench_case.name,
+          .points = {{"points", input.points.rows()},
+                     {"dimension", input.points.dimension},
+                     {"is_sphere_set", bench_case.is_sphere_set}},
+          .unit_cube = bench_case.unit_cube,
+          .load = [bench_case, data_folder] { return bench_case.load(data_folder); }};
+}
+
 PlannedInput file_input(const std::string& path, bool unit_cube) {
   const PointFile file = read_points(path);
   const PointView view = file.view();

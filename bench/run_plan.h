@@ -69,6 +69,8 @@ const char* engine_names();
 /// 1".
 PlannedInput generated_input(const std::string& family, std::size_t dimension, std::size_t count,
                              std::uint64_t seed);
+/// An input of the list of exact hulls.
+PlannedInput case_input(const BenchCase& bench_case, const std::string& data_folder);
 /// Input from a file of points. Throws as read_points.
 PlannedInput file_input(const std::string& path, bool unit_cube);
 

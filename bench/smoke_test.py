@@ -192,9 +192,46 @@ def test_halfspaces_have_the_same_vertices_as_qhalf():
     run("halfspaces", "--only", "no such set", exit_code=1)
 
 
+def test_selections_tells_what_planes_enclose():
+    path = SCRATCH / "selections.jsonl"
+    table = run("selections", "--only", "400 D5", "--json", str(path), "--quiet")
+    records = {(record["engine"], record["options"]): record for record in records_of(path)}
+    excess = {key: 100 * (record["detail"]["outer_ratio"] - 1) for key, record in records.items()}
+    # What Qhull's own pipe of outer planes encloses, and what ndhull may with as many.
+    for facets, options, theirs, ours in ((503, "C0.01", 3.6, 2.8), (375, "W0.1 C0.01", 13.2, 4.2)):
+        assert records["qhull", options]["facets"] == facets and abs(excess["qhull", options] - theirs) < 0.1, excess
+        target = records["ndhull", f"facets {facets}, volume"]
+        assert target["facets"] == facets and target["detail"]["is_certified"] is True, target
+        assert 0 < excess["ndhull", f"facets {facets}, volume"] <= ours, excess
+    by_area, for_volume = (records["ndhull", name] for name in ("largest, bounded", "chosen for volume"))
+    assert by_area["facets"] >= for_volume["facets"] >= 6
+    assert 0 < excess["ndhull", "chosen for volume"] <= excess["ndhull", "largest, bounded"], excess
+    assert "20 outer planes" in table and table.count("yes") == 2, table
+    run("selections", "--only", "no such input", exit_code=1)
+
+
+def test_joggle_has_fewer_problems_with_larger_joggles():
+    path = SCRATCH / "joggle.jsonl"
+    run("joggle", "--only", "c D3", "--runs", "40", "--json", str(path), "--quiet")
+    records = records_of(path)
+    assert len(records) == 24
+    shares = {engine: [record["detail"]["share"] for record in records
+                       if record["engine"] == engine and record["end"] == "done"]
+              for engine in ("ndhull", "qhull")}  # fmt: skip
+    assert shares["ndhull"][0] > 0.9 and shares["ndhull"][-1] < 0.1, shares
+    if shutil.which("qhull") is not None and shutil.which("rbox") is not None:
+        # 40 joggles: one standard deviation is 0.08 at most.
+        assert all(abs(ours - theirs) < 0.45 for ours, theirs in zip(*shares.values(), strict=True)), shares
+    run("joggle", "--only", "no such input", exit_code=1)
+
+
 def test_phases_names_the_phases():
-    table = run("phases", "--only", "c D8", "--rounds", "1")
-    assert all(word in table for word in ("total", "growth", "certify", "merge")), table
+    path = SCRATCH / "phases.jsonl"
+    table = run("phases", "--only", "c D8", "--rounds", "2", "--json", str(path), "--quiet")
+    assert all(word in table for word in ("total", "growth", "certify", "merge", "visible set")), table
+    row = next(line for line in table.splitlines() if line.startswith("c D8")).split()
+    seconds = sorted(record["wall_seconds"] for record in records_of(path))
+    assert row[3] == f"{seconds[0]:.4f}" and sum(map(float, row[4:7])) <= 1.01 * float(row[3]), (table, seconds)
 
 
 def test_micro_measures_the_phases():
@@ -204,9 +241,11 @@ def test_micro_measures_the_phases():
 
 
 def test_rays_counts_its_recall():
-    table = run("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big").splitlines()
-    words = table[-1].split()
-    assert words[:5] == ["2000", "s", "D5", "t1", "56576"] and 0.5 <= float(words[-2]) <= 1, table
+    path = SCRATCH / "rays.jsonl"
+    table = run("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big", "--json", str(path), "--quiet")
+    words = table.splitlines()[-1].split()
+    assert words[:6] == ["2000", "s", "D5", "t1", "56,576", "1"] and 0.5 <= float(words[-2]) <= 1, table
+    assert [record["facets"] for record in records_of(path)] == [56576]
 
 
 def test_list_and_usage():
