@@ -9,6 +9,7 @@
 #endif
 
 #include "core/grower-inl.h"
+#include "core/row_slots-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -19,6 +20,8 @@ namespace HWY_NAMESPACE {
 // is what the matching reads; `undo_cone` puts it back.
 template <std::size_t D>
 void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t begin, std::size_t end) {
+  begin = first_sibling(begin);
+  end = first_sibling(end);
   alignas(64) double apex[D];
   for (std::size_t k = 0; k < D; ++k) apex[k] = point(apex_id)[k];
   constexpr std::size_t kAhead = 8;
@@ -53,12 +56,30 @@ void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t beg
     std::uint32_t* HWY_RESTRICT made_vertices = vertices(row);
     for (std::size_t k = 0; k < D; ++k) made_vertices[k] = old_vertices[k];
     made_vertices[ridge.slot] = apex_id;
-    std::uint32_t* HWY_RESTRICT around = made_vertices + D;
-    for (std::size_t k = 0; k < D; ++k) around[k] = kNoRow;
-    around[ridge.slot] = ridge.hidden;
     state_[row] = SimplexState::kLive;
     neighbours(visible)[ridge.slot] = row | kNewBit;
+    if (i >= begin + D) join_siblings(i - D);
   }
+  for (std::size_t i = begin + D < end ? end - D : begin; i < end; ++i) join_siblings(i);
+}
+
+// New simplices over ridges of the same visible one are neighbours. The other entries are found by turning.
+template <std::size_t D>
+HWY_INLINE void Grower<D>::join_siblings(std::size_t index) {
+  const HorizonRidge ridge = horizon_[index];
+  const std::uint32_t* HWY_RESTRICT around = neighbours(visible_[ridge.visible_index]);
+  std::uint32_t* HWY_RESTRICT made = neighbours(new_rows_[index]);
+  for (std::size_t k = 0; k < D; ++k) made[k] = around[k] & ~kNewBit;
+  made[ridge.slot] = ridge.hidden;
+}
+
+/// The first ridge from `index` on that is the first of its visible simplex.
+template <std::size_t D>
+std::size_t Grower<D>::first_sibling(std::size_t index) const {
+  while (index > 0 && index < horizon_count_ &&
+         horizon_[index].visible_index == horizon_[index - 1].visible_index)
+    ++index;
+  return index;
 }
 
 template <std::size_t D>
@@ -68,46 +89,6 @@ void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
   const std::size_t reused = std::min(work_.free_count, new_count_);
   work_.free_count -= reused;
   work_.complex.row_count += new_count_ - reused;
-}
-
-// For the new simplex over the ridge opposite slot k of f, the neighbour opposite its vertex v (slot m) lies
-// across the subridge S = f minus slots k and m. Turn around S: leave f through m; in each visible simplex
-// entered, leave opposite the vertex that the previous one shared besides S; stop at the first ridge that
-// has a new simplex over it. Both neighbour entries are set at once. Turning back from the partner leads here
-// again, so two threads that meet a pair from its two sides set the same.
-template <std::size_t D>
-void Grower<D>::match_cone() {
-  for_ridges([&](std::size_t begin, std::size_t end) { match_ridges(begin, end); });
-}
-
-template <std::size_t D>
-void Grower<D>::match_ridges(std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t row = new_rows_[i];
-    const HorizonRidge ridge = horizon_[i];
-    const std::uint32_t first = visible_[ridge.visible_index];
-    std::uint32_t* around = neighbours(row);
-    for (std::uint32_t m = 0; m < D; ++m) {
-      if (load_shared(around[m]) != kNoRow)
-        continue;  // the ridge to the horizon, or matched from the other side
-      std::uint32_t current = first;
-      std::uint32_t entered = ridge.slot;  // slot of the ridge that S + its vertex came from
-      std::uint32_t leave = m;
-      std::uint32_t next = neighbours(current)[leave];
-      while ((next & kNewBit) == 0) {
-        // S plus the vertex at `entered` is what current and next share; go on opposite that vertex.
-        const std::uint32_t pivot = vertices(current)[entered];
-        const std::uint32_t back = slot_of<D>(neighbours(next), current);
-        leave = slot_of<D>(vertices(next), pivot);
-        entered = back;
-        current = next;
-        next = neighbours(current)[leave];
-      }
-      const std::uint32_t partner = next & ~kNewBit;
-      store_shared(around[m], partner);
-      store_shared(neighbours(partner)[entered], row);
-    }
-  }
 }
 
 template <std::size_t D>

@@ -48,20 +48,6 @@ HWY_INLINE double gauge_above(const double* HWY_RESTRICT plane, const double* HW
   return even + odd;
 }
 
-/// Slot of `value` in a row of D ids that contains it.
-template <std::size_t D>
-HWY_INLINE std::uint32_t slot_of(const std::uint32_t* row, std::uint32_t value) {
-  constexpr std::size_t kLanes = D <= 4 ? 4 : 8;
-  const hn::CappedTag<std::uint32_t, kLanes> tag;
-  const auto wanted = hn::Set(tag, value);
-  for (std::size_t begin = 0; begin < D; begin += hn::Lanes(tag)) {
-    const auto equal = hn::Eq(hn::LoadU(tag, row + begin), wanted);
-    const std::intptr_t found = hn::FindFirstTrue(tag, equal);
-    if (found >= 0) return static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(found);
-  }
-  return D;
-}
-
 HWY_INLINE std::uint64_t scramble(std::uint64_t x) {  // splitmix64 (Steele, Lea, Flood, 2014)
   x += 0x9E37'79B9'7F4A'7C15u;
   x = (x ^ (x >> 30)) * 0xBF58'476D'1CE4'E5B9u;
@@ -118,6 +104,8 @@ struct NewPlace {
   double height;
 };
 
+struct Turns;
+
 /// Entries that two threads may set to the same value at the same time. No cost: plain moves.
 template <class T>
 HWY_INLINE T load_shared(T& entry) {
@@ -170,8 +158,12 @@ class Grower {
   void forget_visible();
   void make_cone(std::uint32_t apex, double shift);
   void make_ridges(std::uint32_t apex, double shift, std::size_t begin, std::size_t end);
+  void join_siblings(std::size_t index);
+  std::size_t first_sibling(std::size_t index) const;
   void match_cone();
   void match_ridges(std::size_t begin, std::size_t end);
+  std::size_t begin_turns(std::size_t base, std::size_t index, Turns& turns, std::size_t count);
+  std::size_t step_turns(const std::uint32_t* rows, Turns& turns, std::size_t count);
   void undo_cone();
   void commit();
   void find_hidden_slots(std::size_t begin, std::size_t end);

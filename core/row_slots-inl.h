@@ -1,0 +1,56 @@
+// Where in a row of ids something stands. Included once per target by growth_kernels.cpp.
+
+#if defined(NDHULL_ROW_SLOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NDHULL_ROW_SLOTS_INL_H_
+#undef NDHULL_ROW_SLOTS_INL_H_
+#else
+#define NDHULL_ROW_SLOTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace ndhull {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A vector of ids: a row of up to eight, half of a longer one.
+template <std::size_t D>
+using RowTag = hn::CappedTag<std::uint32_t, (D <= 4 ? 4 : 8)>;
+
+template <std::size_t D>
+constexpr std::uint32_t kAllSlots = (1u << D) - 1;
+
+/// One bit for each entry of a row of D for which the comparison of vectors holds. Bits behind D may be set.
+template <std::size_t D, class Compare>
+HWY_INLINE std::uint32_t slots_where(const std::uint32_t* row, const Compare& compare) {
+  const RowTag<D> tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  std::uint32_t bits = 0;
+  for (std::size_t part = 0; part < D; part += lanes) {
+    // A last part that is not full overlaps the one before: what is behind the row may be anywhere.
+    const std::size_t begin = part > 0 && part + lanes > D ? D - lanes : part;
+    std::uint8_t bytes[8];
+    hn::StoreMaskBits(tag, compare(hn::LoadU(tag, row + begin)), bytes);
+    bits |= std::uint32_t{bytes[0]} << begin;
+  }
+  return bits;
+}
+
+/// Slot of `value` in a row of D ids that contains it.
+template <std::size_t D>
+HWY_INLINE std::uint32_t slot_of(const std::uint32_t* row, std::uint32_t value) {
+  const RowTag<D> tag;
+  const auto wanted = hn::Set(tag, value);
+  return static_cast<std::uint32_t>(
+      __builtin_ctz(slots_where<D>(row, [&](auto ids) HWY_ATTR { return hn::Eq(ids, wanted); })));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ndhull
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
