@@ -10,7 +10,6 @@
 #include "approx/cluster_merge.h"
 #include "approx/merge_rule.h"
 #include "approx/outside_points.h"
-#include "core/plane_kernels.h"
 
 namespace ndhull {
 namespace {
@@ -68,15 +67,24 @@ void Approximation::locate_left_out(double outside_width) {
   growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
 }
 
-// Points above one simplex by less than W can be above another, further from the centre, by more.
 void Approximation::grow_outside_width() {
-  for (int round = 0; round < kRounds; ++round) {
-    const bool finished = growth_.grow_to(lengths_.outside_width, 0, 0.0);
-    locate_left_out(lengths_.outside_width);
-    if (!finished) break;
-    if (!put_back_above(growth_, lengths_.outside_width)) break;
+  const double width = lengths_.outside_width;
+  hull_.chosen.outside_width = width;
+  bool has_finished = growth_.grow_to(width, 0, 0.0);
+  if (has_finished && width > 0.0) {
+    OutsideSearch search(growth_);
+    for (int round = 0; round < kRounds && has_finished && search.put_back_above(width); ++round)
+      has_finished = growth_.grow_to(width, 0, 0.0);
+    if (has_finished && !accuracy_.merges_neighbours()) {
+      growth_.certify_unproven(search.largest_gauge(), search.take_order());
+      return;
+    }
   }
-  hull_.chosen.outside_width = lengths_.outside_width;
+  locate_left_out(width);
+  for (int round = 0; round < kRounds && has_finished && growth_.repair(); ++round) {
+    has_finished = growth_.grow_to(width, 0, 0.0);
+    locate_left_out(width);
+  }
 }
 
 // Many simplices are gathered into slabs first, each well inside what the rule and the cap allow: merging
@@ -100,7 +108,7 @@ FacetClusters Approximation::run_merging() {
       rule.width_cap *= 0.75;  // what was merged bounds no region any more
       continue;
     }
-    const std::vector<double> widths = true_widths(covering);
+    const TrueWidths widths = true_widths(covering);
     const std::size_t known = extra_.size();
     add_offenders(covering, widths, cap);
     if (extra_.size() == known || growth_.is_late()) break;
@@ -154,77 +162,72 @@ void Approximation::make_space(bool with_left_out) {
   for (const PointId id : extra_) take(id, others);
   for (const Reach& reach : furthest) take(reach.point, others);
   space_.emplace(work.rank, factor_, growth_.coordinates(), work.point_count, vertices, others);
-  left_out_rows_.clear();
+  left_out_tree_.reset();
   if (!with_left_out || growth_.left_out().empty()) return;
   std::vector<PointId> left_out;
   for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
   const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out);
-  left_out_rows_.assign(all.row(0), all.row(0) + left_out.size() * work.rank);
+  left_out_tree_.emplace(work.rank, std::span<const double>(all.row(0), left_out.size() * work.rank));
 }
 
-/// The widths over all points, not only those of the space.
-std::vector<double> Approximation::true_widths(const Covering& covering) {
+/// The widths over all points, not only those of the space, and what they are due to.
+TrueWidths Approximation::true_widths(const Covering& covering) {
   const std::size_t rank = space_->rank(), count = covering.planes.size();
-  std::vector<double> normals(count * rank), reach(count, -HUGE_VAL), widths(count);
-  for (std::size_t facet = 0; facet < count; ++facet)
-    std::copy_n(covering.planes[facet].normal.data(), rank, normals.data() + facet * rank);
-  if (!left_out_rows_.empty()) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const auto& range) {
-      max_dots(rank, std::span<const double>(normals).subspan(range.begin() * rank, range.size() * rank),
-               left_out_rows_, std::span<double>(reach).subspan(range.begin(), range.size()));
-    });
-  }
+  TrueWidths result;
+  result.widths.resize(count);
+  result.furthest.resize(count);
+  std::vector<double> normals(count * rank), lows(count);
   std::vector<std::uint32_t> row_of_alone(count, kNone);
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
     if (covering.facet_of[row] != kNone) row_of_alone[covering.facet_of[row]] = row;
   for (std::size_t facet = 0; facet < count; ++facet) {
-    double height = covering.planes[facet].height, low = covering.planes[facet].low;
+    const FittedPlane& plane = covering.planes[facet];
+    std::copy_n(plane.normal.data(), rank, normals.data() + facet * rank);
+    double height = plane.height;
+    lows[facet] = plane.low;
     if (height == 0.0) {  // a simplex with its own plane
       const PointId vertex = growth_.work().complex.vertices(SimplexId{row_of_alone[facet]})[0];
       const double* z = space_->row(space_->row_of(vertex));
-      for (std::size_t k = 0; k < rank; ++k) height += normals[facet * rank + k] * z[k];
-      low = height;
+      for (std::size_t k = 0; k < rank; ++k) height += plane.normal[k] * z[k];
+      lows[facet] = height;
     }
-    widths[facet] = std::max(height, reach[facet]) - low;
+    result.furthest[facet].dot = height;
   }
-  return widths;
+  if (left_out_tree_) find_furthest(*left_out_tree_, normals, result.furthest);
+  for (std::size_t facet = 0; facet < count; ++facet)
+    result.widths[facet] = result.furthest[facet].dot - lows[facet];
+  return result;
 }
 
 /// Remembers, for each facet that is wider than `width`, the point that makes it so. Returns those that are
 /// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
-std::vector<LocatedPoint> Approximation::add_offenders(const Covering& covering,
-                                                       const std::vector<double>& widths, double width) {
-  const std::size_t rank = space_->rank();
-  std::vector<std::uint32_t> size_of(widths.size(), 0), row_of(widths.size(), kNone);
+std::vector<LocatedPoint> Approximation::add_offenders(const Covering& covering, const TrueWidths& widths,
+                                                       double width) {
+  const std::size_t rank = space_->rank(), count = widths.widths.size();
+  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone);
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
     if (covering.facet_of[row] == kNone) continue;
     ++size_of[covering.facet_of[row]];
     row_of[covering.facet_of[row]] = row;
   }
   std::vector<LocatedPoint> above_simplices;
-  for (std::size_t facet = 0; facet < widths.size(); ++facet) {
-    if (widths[facet] <= width) continue;
-    double furthest = -HUGE_VAL;
-    PointId point;
-    for (std::size_t i = 0; i < growth_.left_out().size(); ++i) {
-      double dot = 0.0;
-      for (std::size_t k = 0; k < rank; ++k)
-        dot += covering.planes[facet].normal[k] * left_out_rows_[i * rank + k];
-      if (dot <= furthest) continue;
-      furthest = dot;
-      point = growth_.left_out()[i].point;
-    }
-    if (!point.valid()) continue;
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    const std::uint32_t furthest = widths.furthest[facet].row;
+    if (widths.widths[facet] <= width || furthest == FurthestPoint::kNoRow) continue;
+    const PointId point = growth_.left_out()[furthest].point;
     extra_.push_back(point);
     if (size_of[facet] > 1) continue;
     const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
     const auto plane = growth_.work().complex.plane(SimplexId{row_of[facet]});
     double gauge = -1.0;
     for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
-    const auto is_same = [&](const LocatedPoint& other) { return other.point == point; };
-    if (gauge > 0.0 && std::none_of(above_simplices.begin(), above_simplices.end(), is_same))
-      above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
+    if (gauge > 0.0) above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
   }
+  const auto by_point = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point < b.point; };
+  const auto is_same = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point == b.point; };
+  std::stable_sort(above_simplices.begin(), above_simplices.end(), by_point);
+  above_simplices.erase(std::unique(above_simplices.begin(), above_simplices.end(), is_same),
+                        above_simplices.end());
   std::sort(extra_.begin(), extra_.end());
   extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
   return above_simplices;
@@ -277,8 +280,8 @@ FacetClusters Approximation::run_width() {
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
     covering = cover_width(slab, effort);
-    const std::vector<double> widths = true_widths(covering);
-    const double widest = *std::max_element(widths.begin(), widths.end());
+    const TrueWidths widths = true_widths(covering);
+    const double widest = widths.widest();
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
     growth_.put_back(add_offenders(covering, widths, target));
     slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
@@ -331,9 +334,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
 
 /// Over all points; +inf of none.
 double Approximation::widest_of(const Covering& covering) {
-  if (covering.planes.empty()) return HUGE_VAL;
-  const std::vector<double> widths = true_widths(covering);
-  return *std::max_element(widths.begin(), widths.end());
+  return covering.planes.empty() ? HUGE_VAL : true_widths(covering).widest();
 }
 
 FacetClusters Approximation::run_count() {

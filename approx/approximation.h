@@ -1,6 +1,7 @@
 // From an accuracy that is asked for to clusters of simplices: how far to grow, which facets to make.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,8 +12,17 @@
 #include "approx/hull.h"
 #include "approx/slab_cover.h"
 #include "approx/width_space.h"
+#include "core/point_tree.h"
 
 namespace ndhull {
+
+/// Widths of facets over all points.
+struct TrueWidths {
+  std::vector<double> widths;           ///< [distance]
+  std::vector<FurthestPoint> furthest;  ///< of growth's left_out(); no row: a vertex reaches as far
+
+  double widest() const { return *std::max_element(widths.begin(), widths.end()); }
+};
 
 /// One approximate hull on its way.
 class Approximation {
@@ -39,9 +49,8 @@ class Approximation {
     return space_->vertex_count() == space_->table().count() && growth_.work().counters.shifted == 0;
   }
   bool keeps_hull(const Covering& covering) const;
-  std::vector<double> true_widths(const Covering& covering);
-  std::vector<LocatedPoint> add_offenders(const Covering& covering, const std::vector<double>& widths,
-                                          double width);
+  TrueWidths true_widths(const Covering& covering);
+  std::vector<LocatedPoint> add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();
@@ -55,7 +64,8 @@ class Approximation {
   Hull& hull_;
   std::vector<PointId> extra_;  // points that reached further than the space knew
   std::optional<WidthSpace> space_;
-  std::vector<double> left_out_rows_;  // of the space's kind, left_out() x rank
+  std::optional<PointTree>
+      left_out_tree_;  // of left_out(), as rows of the space's kind; none: there are none
 };
 
 }  // namespace ndhull

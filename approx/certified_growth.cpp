@@ -10,8 +10,11 @@ namespace {
 constexpr std::uint64_t kRepairRounds = 8;
 /// Points further inside than this need no look at their distance from each plane. [ratio]
 constexpr double kWellInside = 1e-9;
-/// Points from which on an early proof pays.
-constexpr std::size_t kManyPoints = 4096;
+/// Points from which on an early proof pays; of those that are looked at first, one of so many has to be
+/// inside.
+constexpr std::size_t kManyPoints = 4096, kLookedAtFirst = 512, kWorthProving = 8;
+/// The rounding of the frame's coordinates, and of a gauge computed of them, is far below this. [ratio]
+constexpr double kFrameRounding = 1e-14;
 /// Plane-times-point products that are worth certifying points near the hull one by one.
 constexpr double kAffordableProducts = 4e11;
 
@@ -167,6 +170,23 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
   report_counters();
 }
 
+std::vector<PointId> CertifiedGrowth::unproven_points() const {
+  std::vector<PointId> points;
+  for (std::uint32_t id = 0; id < points_.rows; ++id)
+    if (proven_.empty() || !proven_[id]) points.push_back(PointId{id});
+  return points;
+}
+
+void CertifiedGrowth::certify_unproven(double gauge, std::vector<std::uint32_t> order) {
+  certificate_wanted_.assign(points_.rows, proven_.empty());
+  for (std::uint32_t id = 0; id < proven_.size(); ++id) certificate_wanted_[id] = !proven_[id];
+  certificate_order_ = std::move(order);
+  left_out_.clear();
+  covered_gauge_ = 0.0;
+  hull_.max_outside_gauge = gauge + kFrameRounding;
+  report_counters();
+}
+
 bool CertifiedGrowth::may_cover() {
   const bool has_ended = hull_.status == HullStatus::kTimeLimit || hull_.status == HullStatus::kInterrupted;
   if (has_ended) return false;
@@ -242,11 +262,22 @@ void CertifiedGrowth::prove_early() {
   if (stop != GrowthStop::kPaused) return;  // finished, or ended by a limit: the final proof comes next
   begin = Clock::now();
   const std::vector<PointId> candidates = points_off_the_complex();
-  proven_.assign(points_.rows, false);
-  for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball_, candidates)) {
-    if (point.gauge >= -kWellInside) continue;
-    proven_[point.point.value] = true;
-    ++proven_count_;
+  const auto try_points = [&](const std::vector<PointId>& ids) {
+    return try_inside(work_.complex, coordinates_.data(), ball_, ids);
+  };
+  const auto is_inside = [](const LocatedPoint& point) { return point.gauge < -kWellInside; };
+  std::vector<PointId> some;
+  for (std::size_t i = 0; i < candidates.size(); i += 1 + candidates.size() / kLookedAtFirst)
+    some.push_back(candidates[i]);
+  const std::vector<LocatedPoint> first = try_points(some);
+  const auto inside = static_cast<std::size_t>(std::count_if(first.begin(), first.end(), is_inside));
+  if (inside * kWorthProving >= some.size()) {
+    proven_.assign(points_.rows, false);
+    for (const LocatedPoint& point : try_points(candidates)) {
+      if (!is_inside(point)) continue;
+      proven_[point.point.value] = true;
+      ++proven_count_;
+    }
   }
   seconds(Phase::kCertify) += seconds_since(begin);
 }
@@ -265,7 +296,7 @@ std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
   return rest;
 }
 
-/// Points more than four shifts outside go back; true when there were any.
+/// Points more than four shifts and W outside go back; true when there were any.
 bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
   bool any = false;
   for (const LocatedPoint& point : located) {
@@ -274,9 +305,9 @@ bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
     const auto plane = work_.complex.plane(point.simplex);
     for (std::size_t k = 0; k < frame_.rank; ++k)
       gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
-    if (gauge <= 2.0 * work_.options.shift) continue;
-    push_outside(work_, point.point.value, point.simplex.value,
-                 height_above(work_, point.simplex.value, gauge));
+    const double height = height_above(work_, point.simplex.value, gauge);
+    if (gauge <= 2.0 * work_.options.shift || height <= least_height(work_)) continue;
+    push_outside(work_, point.point.value, point.simplex.value, height);
     any = true;
   }
   return any;
@@ -298,8 +329,7 @@ void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>&
   const double affordable =
       std::min(kAffordableProducts, limits_.affordable_products(work_, options_.stop.stop_requested()));
   if (products > affordable && std::isfinite(largest_gauge)) {
-    // Rounding of the frame's coordinates is far below this.
-    covered_gauge_ = largest_gauge + 1e-14;
+    covered_gauge_ = largest_gauge + kFrameRounding;
     return;
   }
   for (const LocatedPoint& point : left_out_) certificate_wanted_[point.point.value] = true;

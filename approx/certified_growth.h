@@ -41,6 +41,13 @@ class CertifiedGrowth {
   /// Proves for all points that are no vertices where they are; what is not well inside becomes left_out().
   /// Gauges may be this much too large. [ratio]
   void locate_left_out(double useful_slack);
+  /// Points that may be on or above the hull, ascending: those that were not proven inside early on.
+  std::vector<PointId> unproven_points() const;
+  /// Instead of locating them: all unproven points are certified one by one. `gauge` is the largest of them
+  /// above any simplex; `order`: of the unproven points, neighbours together (core/point_tree.h).
+  void certify_unproven(double gauge, std::vector<std::uint32_t> order);
+  /// Those of left_out() that are outside by more than W and rounding go back; false when there are none.
+  bool repair() { return repair(left_out_); }
   /// Puts these points, which are above these simplices, back into outside sets.
   void put_back(std::span<const LocatedPoint> points);
 
@@ -58,6 +65,8 @@ class CertifiedGrowth {
   const std::vector<LocatedPoint>& left_out() const { return left_out_; }
   /// One flag a point: vertex of a simplex, or left out.
   std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
+  /// Of the wanted points, neighbours together; empty: not known.
+  std::vector<std::uint32_t> take_certificate_order() { return std::move(certificate_order_); }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
   void release_coordinates() { coordinates_ = std::vector<double>(); }
@@ -89,6 +98,7 @@ class CertifiedGrowth {
   WorkLimits limits_;
   bool has_started_ = false;
   std::vector<bool> certificate_wanted_;
+  std::vector<std::uint32_t> certificate_order_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
   std::uint64_t proven_count_ = 0;
   std::vector<LocatedPoint> left_out_;

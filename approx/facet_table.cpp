@@ -10,6 +10,7 @@
 #include "core/blocks.h"
 #include "core/highest_dots.h"
 #include "core/plane_kernels.h"
+#include "core/point_tree.h"
 
 namespace ndhull {
 namespace {
@@ -70,6 +71,37 @@ double support_of_ball(const Frame& frame, std::span<const double> normal, const
 struct FacetSums {
   double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0, area = 0.0;
 };
+
+/// The largest product of each facet's normal with any certificate point. `own.count`: vertices of each of
+/// the first `simplicial` facets.
+void find_highest(const CertificatePoints& points, std::span<const double> normals, const OwnDots& own,
+                  std::size_t simplicial, std::span<double> highest) {
+  constexpr std::size_t kFewFacets = 256;    // grouping the points costs more than it saves
+  constexpr std::size_t kManyPoints = 8192;  // most of them no vertices: far from most facets
+  constexpr std::size_t kFacetsAtATime = 4096;
+  const std::size_t dimension = points.dimension, count = highest.size();
+  // Facets are independent: the result does not depend on how they are shared out.
+  if (count >= kFewFacets && points.rows.size() / dimension >= kManyPoints) {
+    const PointTree tree = points.order.empty() ? PointTree(dimension, points.rows)
+                                                : PointTree(dimension, points.rows, points.order);
+    std::vector<FurthestPoint> furthest(count);
+    for (std::size_t facet = 0; facet < count; ++facet) furthest[facet].dot = own.high[facet];
+    find_furthest(tree, normals, furthest);
+    for (std::size_t facet = 0; facet < count; ++facet) highest[facet] = furthest[facet].dot;
+    return;
+  }
+  const PointGroups groups(dimension, points.rows, count < kFewFacets);
+  const auto find = [&](std::size_t first, std::size_t last, std::size_t own_count) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kFacetsAtATime), [&](const auto& facets) {
+      const std::size_t begin = facets.begin(), size = facets.size();
+      highest_dots(groups, normals.subspan(begin * dimension, size * dimension),
+                   {own.low.subspan(begin, size), own.high.subspan(begin, size), own_count},
+                   highest.subspan(begin, size));
+    });
+  };
+  find(0, simplicial, own.count);
+  find(simplicial, count, 0);
+}
 
 /// Areas of the merged facets: of the projection of their simplices onto their plane.
 void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
@@ -145,23 +177,11 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
            high.first(layout.simplicial));
   merged_dots(complex, layout, points, normals.data(), low, high);
   const std::span<double> highest(table.outer.data(), count);
-  // Facets are independent: the result does not depend on how they are shared out.
-  constexpr std::size_t kFacetsAtATime = 4096;
-  constexpr std::size_t kFewFacets = 256;  // grouping the points costs more than it saves
-  const PointGroups groups(dimension, points.rows, count < kFewFacets);
-  const auto find_highest = [&](std::size_t first, std::size_t last, std::size_t own_count) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kFacetsAtATime), [&](const auto& facets) {
-      const std::size_t begin = facets.begin(), size = facets.size();
-      highest_dots(groups, normals.subspan(begin * dimension, size * dimension),
-                   {low.subspan(begin, size), high.subspan(begin, size), own_count},
-                   highest.subspan(begin, size));
-    });
-  };
-  find_highest(0, layout.simplicial, frame.rank);
-  find_highest(layout.simplicial, count, 0);
+  find_highest(points, normals, {low, high, frame.rank}, layout.simplicial, highest);
 
   const double volume_per_determinant =
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
+  constexpr std::size_t kFacetsAtATime = 4096;
   // Sums are put together in the order of the blocks.
   std::vector<FacetSums> parts((count + kFacetsAtATime - 1) / kFacetsAtATime);
   for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {

@@ -23,6 +23,7 @@ struct CertificatePoints {
   std::vector<double> largest;              ///< per column: largest |x - reference|
   std::vector<double> largest_input;        ///< per column: largest |x|
   std::vector<std::uint32_t> row_of_point;  ///< for the points that are in `rows`
+  std::vector<std::uint32_t> order;         ///< of the rows, neighbours together; empty: not known
 };
 
 /// `wanted`: one flag a point of the input.
@@ -58,7 +59,8 @@ struct CoveredPoints {
 /// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
 ///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
-/// Cost      facets x points x dimension fused multiply-adds.
+/// Cost      at most facets x points x dimension fused multiply-adds (core/highest_dots.h,
+/// core/point_tree.h).
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered);

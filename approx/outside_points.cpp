@@ -1,66 +1,96 @@
 #include "approx/outside_points.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <cstring>
 
 namespace ndhull {
 namespace {
 
-/// A point that is less than W above the simplex it lies over may be this much more above another one. Taking
-/// those in as well costs 2.3 times the facets on 10^5 sphere points in 8-d with W 0.3.
+/// A point that is less than W above the simplex it lies over may be this much more above another one when
+/// that would cost many simplices: taking all of those in costs 2.3 times the facets on 10^5 sphere points in
+/// 8-d with W 0.3.
 constexpr double kOutsideSlack = 1.045;
+/// So many times the simplices that W alone brings are worth having no point further above than W.
+constexpr double kWorthNoSlack = 1.25;
+
+/// Once no point is further above than this many W, all that are further than W go back.
+constexpr double kNearlyThere = 1.02;
 
 }  // namespace
 
-bool put_back_above(CertifiedGrowth& growth, double width) {
-  const SimplicialComplex& complex = growth.work().complex;
+OutsideSearch::OutsideSearch(CertifiedGrowth& growth) : growth_(growth), points_(growth.unproven_points()) {
+  if (points_.empty()) return;
+  const std::size_t rank = growth_.work().rank;
+  std::vector<double> rows(points_.size() * rank);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    std::copy_n(growth_.coordinates() + std::size_t{points_[i].value} * rank, rank, rows.data() + i * rank);
+  tree_.emplace(rank, rows);
+}
+
+void OutsideSearch::search_new_planes() {
+  const SimplicialComplex& complex = growth_.work().complex;
   const std::size_t rank = complex.rank;
-  struct Height {  // of a simplex's plane above the centre: a gauge times this is a distance
-    double height;
-    std::uint32_t row;
-  };
-  std::vector<Height> heights;
+  planes_.resize(complex.row_count * rank, 0.0);
+  above_.resize(complex.row_count);
+  std::vector<std::uint32_t> rows;
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    if (complex.state[row] == SimplexState::kLive)
-      heights.push_back({height_above(growth.work(), row, 1.0), row});
+    const double* plane = complex.plane(SimplexId{row}).data();
+    if (complex.state[row] != SimplexState::kLive) continue;
+    if (std::memcmp(plane, planes_.data() + row * rank, rank * sizeof(double)) != 0) rows.push_back(row);
   }
-  std::sort(heights.begin(), heights.end(), [](const Height& a, const Height& b) {
-    return a.height != b.height ? a.height > b.height : a.row < b.row;
-  });
-  std::vector<double> planes(heights.size() * rank);
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    std::copy_n(complex.plane(SimplexId{heights[i].row}).data(), rank, planes.data() + i * rank);
-  std::vector<LocatedPoint> above(growth.left_out().size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, above.size(), 256), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p != range.end(); ++p) {
-      const LocatedPoint& point = growth.left_out()[p];
-      const double* y = growth.coordinates() + std::size_t{point.point.value} * rank;
-      double best = width;
-      // No plane sees the point at a larger gauge than the one it was located over.
-      for (std::size_t i = 0; i < heights.size() && heights[i].height * point.gauge > best; ++i) {
-        double gauge = -1.0;
-        for (std::size_t k = 0; k < rank; ++k) gauge += planes[i * rank + k] * y[k];
-        if (gauge * heights[i].height <= best) continue;
-        best = gauge * heights[i].height;
-        above[p] = {point.point, SimplexId{heights[i].row}, gauge};
-      }
-    }
-  });
-  std::erase_if(above, [](const LocatedPoint& point) { return !point.point.valid(); });
-  if (above.empty()) return false;
-  // The furthest alone: the simplices that they bring may well be all that the others need.
+  std::vector<double> normals(rows.size() * rank);
+  std::vector<FurthestPoint> furthest(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::copy_n(complex.plane(SimplexId{rows[i]}).data(), rank, normals.data() + i * rank);
+    furthest[i].dot = 1.0;  // its vertices
+  }
+  find_furthest(*tree_, normals, furthest);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::copy_n(normals.data() + i * rank, rank, planes_.data() + rows[i] * rank);
+    const FurthestPoint& found = furthest[i];
+    const double gauge = found.dot - 1.0;
+    const PointId id = found.row == FurthestPoint::kNoRow ? PointId{} : points_[found.row];
+    above_[rows[i]] = {height_above(growth_.work(), rows[i], gauge), {id, SimplexId{rows[i]}, gauge}};
+  }
+}
+
+bool OutsideSearch::put_back_above(double width) {
+  if (!tree_) return false;
+  search_new_planes();
+  const SimplicialComplex& complex = growth_.work().complex;
+  const std::size_t live = complex.row_count - growth_.work().free_count;
+  if (enough_ == 0) enough_ = static_cast<std::size_t>(kWorthNoSlack * static_cast<double>(live));
   double worst = 0.0;
-  const auto height = [&](const LocatedPoint& point) {
-    return height_above(growth.work(), point.simplex.value, point.gauge);
-  };
-  for (const LocatedPoint& point : above) worst = std::max(worst, height(point));
-  if (worst <= kOutsideSlack * width) return false;
-  std::erase_if(above, [&](const LocatedPoint& point) { return height(point) < 0.5 * (width + worst); });
-  growth.put_back(above);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row)
+    if (complex.state[row] == SimplexState::kLive) worst = std::max(worst, above_[row].height);
+  if (worst <= (live < enough_ ? 1.0 : kOutsideSlack) * width) return false;
+  // The furthest alone: the simplices that they bring may well be all that the others need.
+  const double least = worst < kNearlyThere * width ? width : 0.5 * (width + worst);
+  std::vector<Above> back;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] == SimplexState::kLive && above_[row].height >= least) back.push_back(above_[row]);
+  }
+  // Each point once, above the plane that it is furthest from.
+  std::sort(back.begin(), back.end(), [](const Above& a, const Above& b) {
+    if (a.point.point != b.point.point) return a.point.point < b.point.point;
+    return a.height != b.height ? a.height > b.height : a.point.simplex < b.point.simplex;
+  });
+  std::vector<LocatedPoint> points;
+  for (const Above& above : back)
+    if (points.empty() || points.back().point != above.point.point) points.push_back(above.point);
+  growth_.put_back(points);
   return true;
+}
+
+double OutsideSearch::largest_gauge() {
+  if (!tree_) return 0.0;
+  search_new_planes();
+  const SimplicialComplex& complex = growth_.work().complex;
+  double largest = 0.0;
+  for (std::uint32_t row = 0; row < above_.size(); ++row)
+    if (complex.state[row] == SimplexState::kLive) largest = std::max(largest, above_[row].point.gauge);
+  return largest;
 }
 
 }  // namespace ndhull

@@ -75,6 +75,7 @@ class Reduction {
     for (int pass = 0; pass < kPasses; ++pass) {
       work_.options.pause_rows = rows;
       grow(work_);
+      if (pass == 0 && !drops_many()) break;
       const std::size_t before = left;
       left = drop_inside();
       const bool pays = left > kFewPoints && (pass == 0 || left < before - before / 8);
@@ -165,6 +166,21 @@ class Reduction {
       length_sq += most * most;
     }
     return std::sqrt(length_sq) * (1.0 + 1e-14);
+  }
+
+  /// Is a part of the sample inside that makes a pass over all points worth its time?
+  bool drops_many() const {
+    constexpr std::size_t kLookedAt = 512, kWorthAPass = 8;  // one of so many
+    const std::size_t step = std::max<std::size_t>(1, work_.point_count / kLookedAt);
+    std::vector<PointId> ids;
+    for (std::size_t row = 0; row < work_.point_count; row += step)
+      ids.push_back(PointId{static_cast<std::uint32_t>(row)});
+    const std::vector<LocatedPoint> located = try_inside(work_.complex, coordinates_.data(), ball_, ids);
+    const auto inside =
+        static_cast<std::size_t>(std::count_if(located.begin(), located.end(), [](const LocatedPoint& point) {
+          return point.gauge < -kWellInside;
+        }));
+    return inside * kWorthAPass >= ids.size();
   }
 
   /// Drops the candidates that are inside the hull; returns how many are left.
