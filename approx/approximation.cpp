@@ -72,13 +72,22 @@ void Approximation::grow_outside_width() {
   hull_.chosen.outside_width = width;
   bool has_finished = growth_.grow_to(width, 0, 0.0);
   if (has_finished && width > 0.0) {
-    OutsideSearch search(growth_);
-    for (int round = 0; round < kRounds && has_finished && search.put_back_above(width); ++round)
-      has_finished = growth_.grow_to(width, 0, 0.0);
-    if (has_finished && !accuracy_.merges_neighbours()) {
-      growth_.certify_unproven(search.largest_gauge(), search.take_order());
-      return;
+    // Where most points are inside, proving that leaves few to search. Merging has to know where they are.
+    std::vector<PointId> points = growth_.unproven_points();
+    const bool is_located = accuracy_.merges_neighbours() || 2 * points.size() < growth_.work().point_count;
+    if (is_located) {
+      locate_left_out(width);
+      points.clear();
+      for (const LocatedPoint& point : growth_.left_out()) points.push_back(point.point);
     }
+    OutsideSearch search(growth_, std::move(points));
+    bool has_grown = false;
+    for (int round = 0; round < kRounds && has_finished && search.put_back_above(width); ++round) {
+      has_finished = growth_.grow_to(width, 0, 0.0);
+      has_grown = true;
+    }
+    if (has_finished && !is_located) growth_.certify_unproven(search.largest_gauge(), search.take_order());
+    if (has_finished && !(is_located && has_grown)) return;
   }
   locate_left_out(width);
   for (int round = 0; round < kRounds && has_finished && growth_.repair(); ++round) {

@@ -19,7 +19,8 @@ constexpr double kNearlyThere = 1.02;
 
 }  // namespace
 
-OutsideSearch::OutsideSearch(CertifiedGrowth& growth) : growth_(growth), points_(growth.unproven_points()) {
+OutsideSearch::OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> points)
+    : growth_(growth), points_(std::move(points)) {
   if (points_.empty()) return;
   const std::size_t rank = growth_.work().rank;
   std::vector<double> rows(points_.size() * rank);

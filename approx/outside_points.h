@@ -13,11 +13,12 @@ namespace ndhull {
 /// Looks for points far above any simplex. They may lie over a simplex that they are near to, and be far
 /// above another one whose plane is further from the centre.
 ///
-/// Memory  12 bytes a coordinate of the points that are not proven inside.
+/// Memory  12 bytes a coordinate of these points.
 class OutsideSearch {
  public:
-  /// `growth` must outlive this, and has ended because no point was outside.
-  explicit OutsideSearch(CertifiedGrowth& growth);
+  /// `growth` must outlive this, and has ended because no point was outside. `points`: those that may be
+  /// above a simplex.
+  OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> points);
 
   /// Puts those points back that are furthest above any simplex, when some are more than `width` above one
   /// [distance]. False when there are none, or when more simplices than are worth it came of those before.
@@ -27,7 +28,7 @@ class OutsideSearch {
 
   /// No point's gauge is larger above any simplex. [ratio]
   double largest_gauge();
-  /// Of growth's unproven points, neighbours together.
+  /// Of the points, neighbours together.
   std::vector<std::uint32_t> take_order() {
     return tree_ ? std::move(*tree_).take_order() : std::vector<std::uint32_t>();
   }
@@ -41,7 +42,7 @@ class OutsideSearch {
 
   CertifiedGrowth& growth_;
   std::vector<PointId> points_;    // of the tree's rows
-  std::optional<PointTree> tree_;  // none: every point is proven inside
+  std::optional<PointTree> tree_;  // none: no point may be
   std::vector<double> planes_;     // as they were searched, row by row of the complex
   std::vector<Above> above_;
   std::size_t enough_ = 0;  // simplices from which on only points far above go back
