@@ -3,6 +3,7 @@
 // exact one.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "bench/machine.h"
 #include "bench/measure_options.h"
 #include "bench/run_record.h"
+#include "core/error.h"
 #include "tools/byte_count.h"
 
 namespace ndhull {
@@ -27,7 +29,8 @@ class Bench {
   explicit Bench(const ApproximateOptions& options)
       : options_(options),
         max_memory_bytes_(parse_byte_count(options.max_memory, "--max-memory")),
-        file_(options.json_path, false) {
+        done_(records_to_keep(options)),
+        file_(options.json_path, options.resume) {
     if (!options.qhull_from.empty()) earlier_ = read_records(options.qhull_from);
   }
 
@@ -56,6 +59,26 @@ class Bench {
   }
 
  private:
+  static std::vector<RunRecord> records_to_keep(const ApproximateOptions& options) {
+    if (options.resume && options.json_path.empty())
+      throw Error(ErrorCode::kUsage, "--resume goes on with the file of --json: name it");
+    const bool is_there = options.resume && std::filesystem::exists(options.json_path);
+    return is_there ? read_records(options.json_path) : std::vector<RunRecord>{};
+  }
+
+  // Of an earlier call: then `record` becomes that, and nothing is to be measured.
+  bool was_done(RunRecord& record) {
+    for (const RunRecord& done : done_) {
+      if (done.key == record.key && done.group == record.group && done.task == record.task &&
+          done.round == record.round) {
+        record = done;
+        records_.push_back(record);
+        return true;
+      }
+    }
+    return false;
+  }
+
   static bool is_worth_another_run(const Repeats& repeats) {
     return repeats.failure.empty() &&
            (repeats.is_empty() || repeats.last().wall_seconds <= BenchCase::kSlowSeconds);
@@ -98,6 +121,7 @@ class Bench {
   RunRecord run_qhull_case(const BenchInput& input, const ApproximateCase& approximate, unsigned round) {
     RunRecord record = new_record(input, approximate, "qhull", approximate_task::kEqualOptions,
                                   approximate.options.text, round);
+    if (was_done(record)) return record;
     std::string words = approximate.input.unit_cube ? "QbB" : "";
     words += approximate.options.qhull_options(largest_extent(input.points.view()));
     set_result(run_in_child([&] { return nlohmann::json(run_qhull(input, words)); }, options_.max_seconds),
@@ -109,6 +133,7 @@ class Bench {
   void run_ndhull_case(const BenchInput& input, const ApproximateCase& approximate, const char* task,
                        const OptionSet& set, unsigned round) {
     RunRecord record = new_record(input, approximate, "ndhull", task, set.text, round);
+    if (was_done(record)) return;
     HullOptions options;
     options.accuracy = set.accuracy;
     options.unit_cube = approximate.input.unit_cube;
@@ -136,6 +161,7 @@ class Bench {
 
   const ApproximateOptions& options_;
   std::uint64_t max_memory_bytes_;
+  std::vector<RunRecord> done_;  // of the file, before it is opened to go on
   RecordFile file_;
   std::vector<RunRecord> records_, earlier_;
 };
@@ -148,6 +174,9 @@ std::vector<ApproximateCase> chosen_cases(const ApproximateOptions& options) {
   if (options.skip_slow) {
     std::erase_if(cases,
                   [](const ApproximateCase& approximate) { return approximate.input.is_slow_for_qhull(); });
+  }
+  if (options.skip_huge) {
+    std::erase_if(cases, [](const ApproximateCase& approximate) { return approximate.is_huge; });
   }
   if (cases.empty()) options.selection.refuse();
   return cases;
@@ -173,7 +202,8 @@ std::vector<RunRecord> measure_approximate(const ApproximateOptions& options) {
   std::set<std::string> inputs_with_targets;
   for (const ApproximateCase& approximate : cases) {
     const bool is_new = inputs_with_targets.insert(approximate.input.name).second;
-    bench.run_case(approximate, is_new && !options.skip_targets);
+    const bool is_too_long = options.skip_huge && approximate.is_hull_huge;
+    bench.run_case(approximate, is_new && !options.skip_targets && !is_too_long);
   }
   return bench.records();
 }
@@ -192,6 +222,8 @@ void add_approximate_command(CLI::App& app) {
       "take Qhull's runs from this file, that --json of an earlier run wrote on this machine");
   command->add_flag("--skip-slow", options->skip_slow,
                     fmt::format("leave out inputs on which Qhull takes over {} s", BenchCase::kSlowSeconds));
+  command->add_flag("--skip-huge", options->skip_huge,
+                    "of 100,000 points: leave out 8-d, and in 6-d approximate hulls beside exact ones");
   command->add_flag("--skip-targets", options->skip_targets, "leave out approximate hulls beside exact ones");
   command->add_option("--widths", options->widths, "of these approximate hulls")->capture_default_str();
   command->add_option("--max-seconds", options->max_seconds, "stop a run after this wall clock; 0: never")
@@ -200,6 +232,7 @@ void add_approximate_command(CLI::App& app) {
   command->add_option("--max-memory", options->max_memory, "limit of ndhull's tables, like 4G")
       ->capture_default_str();
   command->add_option("--json", options->json_path, "one line of JSON for each run");
+  command->add_flag("--resume", options->resume, "keep what --json has already, and measure the rest");
   command->footer(
       "Example: ndhull-bench approximate --only D5 --json approximate.jsonl\n"
       "         ndhull-bench approximate --qhull-from approximate.jsonl   # after a change of ndhull");

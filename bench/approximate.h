@@ -20,6 +20,8 @@ struct ApproximateOptions {
   bool skip_qhull = false;
   bool skip_slow = false;
   bool skip_targets = false;
+  bool skip_huge = false;  ///< of 100,000 points: without exact hulls and targets, and none in 8-d
+  bool resume = false;     ///< keep what json_path has
 };
 
 /// Measures the chosen inputs, with a line on standard output for each run. Throws Error kUsage when no input

@@ -11,7 +11,9 @@ namespace ndhull {
 
 struct ApproximateCase {
   BenchCase input;
-  OptionSet options;  ///< W and C, in the unit cube where the input has that
+  OptionSet options;          ///< W and C, in the unit cube where the input has that
+  bool is_huge = false;       ///< takes minutes
+  bool is_hull_huge = false;  ///< the exact hull and narrow targets take minutes, these options do not
   std::string name() const { return input.name + ", " + options.text; }
 };
 

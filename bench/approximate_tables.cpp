@@ -8,58 +8,23 @@
 namespace ndhull {
 namespace {
 
-/// The runs of one case, engines apart.
-struct Group {
-  std::string name, options;
-  Repeats qhull, equal_options, equal_facets, equal_width;
-  std::vector<std::pair<std::string, Repeats>> targets;  // by options, in the order of the file
-};
-
-Repeats& target_of(const std::string& options, Group& group) {
+Repeats& target_of(const std::string& options, ApproximateGroup& group) {
   for (auto& [text, repeats] : group.targets) {
     if (text == options) return repeats;
   }
   return group.targets.emplace_back(options, Repeats{}).second;
 }
 
-std::vector<Group> groups_of(const std::vector<RunRecord>& records) {
-  std::vector<Group> groups;
-  for (const RunRecord& record : records) {
-    if (record.command != "approximate") continue;
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& candidate) { return candidate.name == record.group; });
-    if (group == groups.end()) {
-      groups.emplace_back().name = record.group;
-      group = groups.end() - 1;
-    }
-    if (record.task == approximate_task::kEqualFacets) {
-      add_repeat(record, group->equal_facets);
-    } else if (record.task == approximate_task::kEqualWidth) {
-      add_repeat(record, group->equal_width);
-    } else if (record.task == approximate_task::kTargets) {
-      add_repeat(record, target_of(record.key.options, *group));
-    } else if (record.key.engine == "qhull") {
-      add_repeat(record, group->qhull);
-    } else {
-      add_repeat(record, group->equal_options);
-    }
-  }
-  return groups;
-}
-
-/// [distance] Highest outer plane to lowest vertex, of all facets together: what Qhull prints.
-double span_of(const HullRun& run) { return run.max_outer_offset - run.min_inner_offset; }
-
 std::string ratio(double numerator, double denominator) { return short_number(numerator / denominator); }
 
 // "0.182 (0.144)": of all facets together, and the widest single one.
 std::string qhull_width(const HullRun& run) {
-  return fmt::format("{} ({})", short_number(span_of(run)), short_number(run.max_facet_width));
+  return fmt::format("{} ({})", short_number(width_of_all_facets(run)), short_number(run.max_facet_width));
 }
 
 // ndhull's widest facet over both of Qhull's.
 std::string width_ratio(const HullRun& ndhull, const HullRun& qhull) {
-  return fmt::format("{} ({})", ratio(ndhull.max_facet_width, span_of(qhull)),
+  return fmt::format("{} ({})", ratio(ndhull.max_facet_width, width_of_all_facets(qhull)),
                      ratio(ndhull.max_facet_width, qhull.max_facet_width));
 }
 
@@ -85,13 +50,14 @@ constexpr const char* kWidthNote =
     "widest "
     "facet, certified. Width ratio: ndhull's over each of the two.";
 
-Table comparison(const std::vector<Group>& groups, const char* title, Repeats Group::*ndhull) {
+Table comparison(const std::vector<ApproximateGroup>& groups, const char* title,
+                 Repeats ApproximateGroup::*ndhull) {
   Table table{.title = title,
               .note = kWidthNote,
               .columns = {"input, options", "Qhull facets", "width (widest)", "seconds", "ndhull facets",
                           "width", "seconds", "facet ratio", "width ratio", "times faster"},
               .rows = {}};
-  for (const Group& group : groups) {
+  for (const ApproximateGroup& group : groups) {
     const Repeats& runs = group.*ndhull;
     if (runs.is_empty() && runs.failure.empty()) continue;
     std::vector<std::string> row{group.name};
@@ -116,7 +82,7 @@ std::string target_cell(const Repeats& repeats) {
   return (repeats.done.back().is_complete() ? "" : "> ") + short_number(repeats.median_seconds());
 }
 
-Table beside_exact(const std::vector<Group>& groups) {
+Table beside_exact(const std::vector<ApproximateGroup>& groups) {
   Table table{.title = "Approximate hulls beside the exact one",
               .note =
                   "ndhull's seconds; > where a limit on time or memory ended the hull. Slowest: the slowest "
@@ -124,14 +90,14 @@ Table beside_exact(const std::vector<Group>& groups) {
               .columns = {"input", "exact facets"},
               .rows = {}};
   std::vector<std::string> options;
-  for (const Group& group : groups) {
+  for (const ApproximateGroup& group : groups) {
     for (const auto& [text, repeats] : group.targets) {
       if (std::find(options.begin(), options.end(), text) == options.end()) options.push_back(text);
     }
   }
   table.columns.insert(table.columns.end(), options.begin(), options.end());
   table.columns.push_back("slowest");
-  for (const Group& group : groups) {
+  for (const ApproximateGroup& group : groups) {
     if (group.targets.empty()) continue;
     std::vector<std::string> row{group.name};
     double exact_seconds = 0.0, slowest = 0.0;
@@ -159,11 +125,49 @@ Table beside_exact(const std::vector<Group>& groups) {
 
 }  // namespace
 
+std::vector<ApproximateGroup> approximate_groups(const std::vector<RunRecord>& records) {
+  std::vector<ApproximateGroup> groups;
+  for (const RunRecord& record : records) {
+    if (record.command != "approximate") continue;
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const ApproximateGroup& candidate) {
+      return candidate.name == record.group;
+    });
+    if (group == groups.end()) {
+      groups.emplace_back().name = record.group;
+      group = groups.end() - 1;
+      group->points = record.points;
+    }
+    if (record.task == approximate_task::kEqualFacets) {
+      add_repeat(record, group->equal_facets);
+    } else if (record.task == approximate_task::kEqualWidth) {
+      add_repeat(record, group->equal_width);
+    } else if (record.task == approximate_task::kTargets) {
+      add_repeat(record, target_of(record.key.options, *group));
+    } else if (record.key.engine == "qhull") {
+      add_repeat(record, group->qhull);
+    } else {
+      add_repeat(record, group->equal_options);
+    }
+  }
+  return groups;
+}
+
+const Repeats& ApproximateGroup::target(const std::string& wanted) const {
+  static const Repeats kNone;
+  for (const auto& [text, repeats] : targets) {
+    if (text == wanted) return repeats;
+  }
+  return kNone;
+}
+
+double width_of_all_facets(const HullRun& run) { return run.max_outer_offset - run.min_inner_offset; }
+
 std::vector<Table> approximate_tables(const std::vector<RunRecord>& records) {
-  const std::vector<Group> groups = groups_of(records);
-  std::vector<Table> tables{comparison(groups, "The same options", &Group::equal_options),
-                            comparison(groups, "The same number of facets", &Group::equal_facets),
-                            comparison(groups, "The same width", &Group::equal_width), beside_exact(groups)};
+  const std::vector<ApproximateGroup> groups = approximate_groups(records);
+  std::vector<Table> tables{comparison(groups, "The same options", &ApproximateGroup::equal_options),
+                            comparison(groups, "The same number of facets", &ApproximateGroup::equal_facets),
+                            comparison(groups, "The same width", &ApproximateGroup::equal_width),
+                            beside_exact(groups)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   return tables;
 }

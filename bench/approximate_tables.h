@@ -1,6 +1,8 @@
 // The tables of `ndhull-bench approximate`, from its records: also those of a file.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/run_record.h"
@@ -15,6 +17,20 @@ inline constexpr const char* kEqualFacets = "equal facets";    ///< ndhull with 
 inline constexpr const char* kEqualWidth = "equal width";      ///< ndhull with Qhull's widest facet
 inline constexpr const char* kTargets = "targets";             ///< ndhull: exact, and widths in percent
 }  // namespace approximate_task
+
+/// The runs of one case, engines apart.
+struct ApproximateGroup {
+  std::string name;
+  nlohmann::json points;
+  Repeats qhull, equal_options, equal_facets, equal_width;
+  std::vector<std::pair<std::string, Repeats>> targets;  ///< by options, in the order of the file
+
+  const Repeats& target(const std::string& options) const;  ///< empty when there is none
+};
+std::vector<ApproximateGroup> approximate_groups(const std::vector<RunRecord>& records);
+
+/// [distance] Highest outer plane to lowest vertex, of all facets together: what Qhull prints.
+double width_of_all_facets(const HullRun& run);
 
 /// Equal options, equal facets, equal width, approximate beside exact; a table without rows is left out.
 /// Records of other commands are passed over.

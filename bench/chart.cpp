@@ -4,11 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string_view>
 
 #include "core/error.h"
@@ -100,13 +102,38 @@ std::string preamble(const std::string& name, const std::string& title, const st
       quoted(name), quoted(title), quoted(x_label), quoted(y_label));
 }
 
+std::pair<double, double> x_range(const Chart& chart) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Series& series : chart.series) {
+    for (const auto& [x, y] : series.points) {
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  return {low, high};
+}
+
 }  // namespace
+
+bool spans_a_decade(const Chart& chart) {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (const Series& series : chart.series) {
+    for (const auto& [x, y] : series.points) {
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  }
+  return high > 10.0 * low;
+}
 
 std::string draw_svg(const Chart& chart, const std::string& name) {
   std::string script = preamble(name, chart.title, chart.x_label, chart.y_label);
   if (chart.log_x) script += "set logscale x\n";
-  if (chart.log_y) script += "set logscale y\n";
-  if (chart.whole_x) script += "set xtics 1\nset offsets 0.3, 0.3, 0, 0\n";
+  script += chart.log_y ? "set logscale y\n" : "set yrange [0:*]\n";
+  if (chart.whole_x) {
+    const auto [low, high] = x_range(chart);
+    script += fmt::format("set xtics 1\nset xrange [{}:{}]\n", low - 0.3, high + 0.3);
+  }
   std::string plot;
   std::size_t number = 0;
   for (const Series& series : chart.series) {
@@ -114,7 +141,7 @@ std::string draw_svg(const Chart& chart, const std::string& name) {
     script += fmt::format("$series{} << END\n", number);
     for (const auto& [x, y] : series.points) script += fmt::format("{} {}\n", x, y);
     script += "END\n";
-    plot += fmt::format("{} $series{} using 1:2 with linespoints lw 2 pt 7 ps 0.5 dt {} lc rgb '{}' title {}",
+    plot += fmt::format("{} $series{} using 1:2 with linespoints lw 2 pt 7 ps 0.6 dt {} lc rgb '{}' title {}",
                         plot.empty() ? "plot" : ",", number, series.is_dashed ? 2 : 1,
                         kColours[series.colour % kColours.size()], quoted(series.name));
     ++number;
@@ -126,7 +153,7 @@ std::string draw_svg(const BarChart& chart, const std::string& name) {
   std::string script = preamble(name, chart.title, chart.x_label, chart.y_label);
   script +=
       "set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border -1\n"
-      "set boxwidth 0.7\nset yrange [0:*]\n$bars << END\n";
+      "set boxwidth 0.7\nset yrange [0:100]\n$bars << END\n";
   for (std::size_t category = 0; category < chart.categories.size(); ++category) {
     script += quoted(chart.categories[category]);
     for (const double value : chart.values[category]) script += fmt::format(" {}", value);

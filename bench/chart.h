@@ -23,7 +23,11 @@ struct Chart {
   bool whole_x = false;  ///< ticks at whole numbers
 };
 
-/// Bars of parts, one for each category.
+/// Do the y of the points, all positive, differ by more than a factor of 10? Then a logarithmic axis shows
+/// more; a linear one begins at 0.
+bool spans_a_decade(const Chart& chart);
+
+/// Bars of parts that make 100 %, one for each category.
 struct BarChart {
   std::string title, x_label, y_label;
   std::vector<std::string> parts, categories;

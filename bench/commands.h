@@ -34,6 +34,8 @@ void add_micro_command(CLI::App& app);
 void add_peers_command(CLI::App& app);
 /// `phases`: where the time of ndhull goes.
 void add_phases_command(CLI::App& app);
+/// `readme`: the measured tables in READMEs.
+void add_readme_command(CLI::App& app);
 /// `report`: results as a page.
 void add_report_command(CLI::App& app);
 /// `scaling`: how time and memory grow.

@@ -26,6 +26,18 @@ std::string family_title(const std::vector<DimensionRun>& runs) {
                      : fmt::format("{}, {} .. {} points", runs.front().family, low, high);
 }
 
+// In all charts the option set gives a line's colour, the engine whether it is dashed.
+std::vector<std::string> options_of(const std::vector<std::vector<DimensionRun>>& families) {
+  std::vector<std::string> options;
+  for (const std::vector<DimensionRun>& runs : families) {
+    for (const DimensionRun& run : runs) {
+      if (std::find(options.begin(), options.end(), run.key.options) == options.end())
+        options.push_back(run.key.options);
+    }
+  }
+  return options;
+}
+
 const DimensionRun* find_run(const std::vector<DimensionRun>& runs, std::size_t dimension,
                              const std::string& engine, const std::string& options) {
   const auto found = std::find_if(runs.begin(), runs.end(), [&](const DimensionRun& run) {
@@ -80,13 +92,12 @@ std::vector<Chart> charts_over_dimension(
     const std::vector<std::vector<DimensionRun>>& families, const std::string& y_label,
     const std::function<std::optional<double>(const DimensionRun&)>& figure) {
   std::vector<Chart> charts;
-  std::vector<std::string> names;
+  const std::vector<std::string> options = options_of(families);
   for (const std::vector<DimensionRun>& runs : families) {
     Chart chart{.title = family_title(runs),
                 .x_label = "dimension",
                 .y_label = y_label,
                 .series = {},
-                .log_y = true,
                 .whole_x = true};
     for (const DimensionRun& run : runs) {
       const std::optional<double> value = figure(run);
@@ -95,14 +106,14 @@ std::vector<Chart> charts_over_dimension(
       auto line = std::find_if(chart.series.begin(), chart.series.end(),
                                [&](const Series& series) { return series.name == name; });
       if (line == chart.series.end()) {
-        const auto place = std::find(names.begin(), names.end(), name) - names.begin();
-        if (place == std::ssize(names)) names.push_back(name);
-        chart.series.push_back({name, {}, run.key.engine == "qhull", static_cast<std::size_t>(place)});
+        const auto place = std::find(options.begin(), options.end(), run.key.options) - options.begin();
+        chart.series.push_back({name, {}, run.key.engine != "ndhull", static_cast<std::size_t>(place)});
         line = chart.series.end() - 1;
       }
       line->points.emplace_back(static_cast<double>(run.dimension), *value);
     }
     std::erase_if(chart.series, [](const Series& series) { return series.points.size() < 2; });
+    chart.log_y = spans_a_decade(chart);
     if (!chart.series.empty()) charts.push_back(std::move(chart));
   }
   return charts;
@@ -111,9 +122,8 @@ std::vector<Chart> charts_over_dimension(
 std::vector<Chart> exact_width_charts(const std::vector<std::vector<DimensionRun>>& families) {
   Chart chart{.title = "exact hulls",
               .x_label = "dimension",
-              .y_label = "width of the widest facet [length of the points]",
+              .y_label = "width of the widest facet [input units]",
               .series = {},
-              .log_y = true,
               .whole_x = true};
   for (std::size_t family = 0; family < families.size(); ++family) {
     for (const char* engine : {"ndhull", "qhull"}) {
@@ -129,6 +139,7 @@ std::vector<Chart> exact_width_charts(const std::vector<std::vector<DimensionRun
       if (!series.points.empty()) chart.series.push_back(std::move(series));
     }
   }
+  chart.log_y = spans_a_decade(chart);
   return chart.series.empty() ? std::vector<Chart>{} : std::vector<Chart>{std::move(chart)};
 }
 

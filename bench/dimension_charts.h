@@ -23,7 +23,8 @@ struct DimensionRun {
 /// Of each family the runs with that number of points; one thread, one seed; in ascending dimension.
 std::vector<std::vector<DimensionRun>> runs_by_family(const std::vector<RunRecord>& records);
 
-/// One chart a family: `figure` of each engine and option set against the dimension, logarithmic. Runs
+/// One chart a family: `figure` of each engine and option set against the dimension, logarithmic where it
+/// spans a decade. Runs
 /// without a figure are left out, lines with one point too.
 std::vector<Chart> charts_over_dimension(
     const std::vector<std::vector<DimensionRun>>& families, const std::string& y_label,

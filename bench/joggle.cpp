@@ -176,7 +176,7 @@ std::vector<Chart> joggle_charts(const std::vector<RunRecord>& records) {
   std::vector<Chart> charts;
   for (const ManualTable& manual : kTables) {
     Chart chart{.title = manual.title,
-                .x_label = "joggle [length of the points]",
+                .x_label = "joggle [input units]",
                 .y_label = "share of joggles with a precision problem",
                 .series = {{.name = "ndhull", .points = {}, .colour = 0},
                            {.name = "Qhull", .points = {}, .is_dashed = true, .colour = 1},

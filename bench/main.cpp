@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   ndhull::add_scaling_command(app);
   ndhull::add_sweep_command(app);
   ndhull::add_report_command(app);
+  ndhull::add_readme_command(app);
   ndhull::add_all_command(app);
   ndhull::add_compare_command(app);
   ndhull::add_counts_command(app);

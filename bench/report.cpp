@@ -1,6 +1,7 @@
 // `ndhull-bench report`: results of earlier runs as one page that needs nothing else, or as Markdown.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -8,6 +9,7 @@
 #include "bench/machine.h"
 #include "bench/report_charts.h"
 #include "bench/report_page.h"
+#include "bench/result_folder.h"
 #include "core/error.h"
 #include "tools/output_file.h"
 
@@ -23,7 +25,9 @@ struct ReportOptions {
 void run_report(const ReportOptions& options) {
   std::vector<RunRecord> records;
   for (const std::string& path : options.results) {
-    for (RunRecord& record : read_records(path)) records.push_back(std::move(record));
+    const bool is_folder = std::filesystem::is_directory(path);
+    for (RunRecord& record : is_folder ? read_result_folder(path) : read_records(path))
+      records.push_back(std::move(record));
   }
   write_report_page(records, options.output, options.markdown);
 }
@@ -46,8 +50,8 @@ void write_report_page(const std::vector<RunRecord>& records, const std::string&
 void add_report_command(CLI::App& app) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand(
-      "report", "one page of charts and tables of what --json of approximate, scaling and sweep wrote");
-  command->add_option("results", options->results, "files of JSON lines")->required();
+      "report", "one page of charts and tables of what --json of the other commands wrote");
+  command->add_option("results", options->results, "files of JSON lines, or folders of them")->required();
   command->add_option("-o,--output", options->output, "the page; - is standard output")->required();
   command->add_flag("--markdown", options->markdown, "tables as Markdown, without charts");
   command->footer(

@@ -63,7 +63,7 @@ def test_the_charts_name_axes_units_and_lines():
         assert len(ticks) >= 2 and all(abs(b / a - 10) < 1e-6 for a, b in zip(ticks, ticks[1:])), words
     assert any("facets" in words and "ndhull, targets" in words for words in charts)
     assert any("growth" in words and "certify" in words for words in charts)
-    assert sum("width of the widest facet [length of the points]" in words for words in charts) >= 3
+    assert sum("width of the widest facet [input units]" in words for words in charts) >= 3
 
 
 def test_the_page_loads_nothing():
@@ -138,6 +138,42 @@ def test_every_command_has_its_tables():
     rows = re.findall(r"<tr>(.*?)</tr>", html[html.index("All measurements</h2>"):])
     assert any("c D8" in row for row in rows) and not any("QJ" in row or "intersect" in row for row in rows)
     run(PROGRAM, "report", SCRATCH / "joggle.jsonl", "-o", SCRATCH / "joggle.html")
+
+
+README = """# Title
+
+Words <!-- table: exact --> stay.
+
+<!-- table: exact -->
+| old |
+<!-- end of table -->
+between
+<!-- table: machine -->
+<!-- end of table -->
+"""
+
+
+def test_readme_has_the_tables_of_the_results():
+    folder, readme = SCRATCH / "readme", SCRATCH / "readme" / "README.md"
+    folder.mkdir(exist_ok=True)
+    readme.write_text(README, encoding="utf-8")
+    run(PROGRAM, "peers", "--only", "2000 s D5", "--rounds", "1", "--quiet", "--json", folder / "peers.jsonl")
+    run(PROGRAM, "readme", folder, readme, "--check", exit_code=1)
+    assert readme.read_text(encoding="utf-8") == README
+    assert run(PROGRAM, "readme", folder, readme) == f"{readme}\n"
+    text = readme.read_text(encoding="utf-8")
+    ours, theirs = (json.loads(line) for line in (folder / "peers.jsonl").read_text(encoding="utf-8").splitlines())
+    row = next(line for line in text.splitlines() if line.startswith("| `2000 s D5 t1`")).strip("| ").split(" | ")
+    assert row[1] == "56,576" and row[7] == f"{theirs['wall_seconds'] / ours['wall_seconds']:.1f}", row
+    assert "| old |" not in text and ours["machine"]["cpu"] in text, text
+    assert text.startswith("# Title\n\nWords <!-- table: exact --> stay.\n") and "\nbetween\n" in text, text
+    run(PROGRAM, "readme", folder, readme, "--check")
+    for bad in ("<!-- table: exact -->\n", "<!-- end of table -->\n", "<!-- table: exact -->\n" * 2,
+                "<!-- table: unknown -->\n<!-- end of table -->\n", "<!-- table: joggled cube -->\n<!-- end of table -->\n"):  # fmt: skip
+        readme.write_text(bad, encoding="utf-8")
+        run(PROGRAM, "readme", folder, readme, exit_code=1)
+        assert readme.read_text(encoding="utf-8") == bad
+    run(PROGRAM, "readme", SCRATCH / "no-such-folder", readme, exit_code=1)
 
 
 def test_two_rows_are_what_the_programs_say():

@@ -171,16 +171,17 @@ class Measurement {
     records_.push_back(record);
   }
 
-  // [seconds] From the run most like it: the same one, else one of the same engine and options, with four
-  // times the seconds for each dimension more.
+  // [seconds] From the run most like it: the same one, else the last of the same engine, options and task; of
+  // plain hulls with four times the seconds for each dimension more.
   double expected_seconds(const RunRecord& wanted) const {
     const auto same = last_of_.find(wanted.key);
     if (same != last_of_.end()) return is_worth_repeating(wanted) ? seconds_of(records_[same->second]) : 0.0;
     for (auto record = records_.rbegin(); record != records_.rend(); ++record) {
       if (record->end == "skipped" || record->key.engine != wanted.key.engine ||
-          record->key.options != wanted.key.options) {
+          record->key.options != wanted.key.options || record->task != wanted.task) {
         continue;
       }
+      if (!wanted.task.empty()) return seconds_of(*record);
       const auto more =
           wanted.points.at("dimension").get<double>() - record->points.at("dimension").get<double>();
       const double seconds = (seconds_of(*record) + 0.01) * std::pow(4.0, more);

@@ -55,6 +55,22 @@ HullRun count_facets(GenerateOptions generate) {
   return run;
 }
 
+/// The largest number of points, up to `most`, of which a hull is expected to have few enough facets to make
+/// many: near the simplex in high dimensions.
+std::size_t count_for_many_seeds(PointFamily family, std::size_t dimension, std::size_t most) {
+  constexpr double kMostFacets = 20'000.0;
+  std::size_t low = dimension + 1, high = most;
+  while (low < high) {
+    const std::size_t middle = low + (high - low + 1) / 2;
+    if (expected_facet_count(family, dimension, middle) <= kMostFacets) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
+}
+
 class ScalingPlan {
  public:
   explicit ScalingPlan(const ScalingOptions& options) : options_(options) {
@@ -72,8 +88,9 @@ class ScalingPlan {
 
  private:
   // Hulls in one child, until their mean is known well.
-  void add_counts(const std::string& family, std::size_t dimension, std::size_t count) {
-    if (count <= dimension || !has_expected_facet_count(point_family(family))) return;
+  void add_counts(const std::string& family, std::size_t dimension, std::size_t most) {
+    if (most <= dimension || !has_expected_facet_count(point_family(family))) return;
+    const std::size_t count = count_for_many_seeds(point_family(family), dimension, most);
     plan_.inputs.push_back({.name = fmt::format("{} {}-d, {}, many seeds", family, dimension, count),
                             .points = {{"family", family}, {"dimension", dimension}, {"points", count}},
                             .load = [] { return BenchInput{}; }});

@@ -78,6 +78,12 @@ def test_approximate_compares_options_facets_and_width():
     again = run(*words, "--skip-targets", "--qhull-from", str(path), "--json", str(SCRATCH / "again.jsonl"))
     kept = [record for record in records_of(SCRATCH / "again.jsonl") if record["engine"] == "qhull"]
     assert len(kept) == 1 and kept[0]["wall_seconds"] == qhull["wall_seconds"] and "562" in again, kept
+    whole = path.read_text(encoding="utf-8").splitlines()
+    path.write_text("\n".join(whole[:5]) + "\n" + whole[5][:40], encoding="utf-8")
+    run(*words, "--json", str(path), "--resume")
+    resumed = path.read_text(encoding="utf-8").splitlines()
+    assert resumed[:5] == whole[:5] and len(resumed) == len(whole), resumed
+    assert "100000" in run("approximate", "--list") and "100000 s D8" not in run("approximate", "--list", "--skip-huge")
     alone = run(*words, "--skip-qhull", "--skip-targets")
     assert "The same options" in alone and "The same width" not in alone, alone
     path.write_text("{}\n", encoding="utf-8")
@@ -135,6 +141,13 @@ def test_scaling_agrees_with_the_expected_numbers_of_facets():
     path = SCRATCH / "scaling.jsonl"
     table = run("scaling", "--dimensions", "4", "--points", "400,800,1600", "--fixed-points", "60", "--all-dimensions",
                 "3-6", "--seeds", "1", "--warm-up", "0", "--json", str(path), "--quiet")  # fmt: skip
+    counted = SCRATCH / "counted.jsonl"
+    run("scaling", "--families", "sphere", "--points", "12", "--dimensions", "11", "--fixed-points", "80",
+        "--all-dimensions", "10", "--seeds", "1", "--warm-up", "0", "--json", str(counted), "--quiet")  # fmt: skip
+    # Few enough points to make many hulls.
+    (high,) = (record for record in records_of(counted) if record.get("task") == "counts")
+    assert 11 < high["points"]["points"] < 80 and high["detail"]["expected_facets"] <= 20000, high
+    assert abs(high["detail"]["mean_facets"] / high["detail"]["expected_facets"] - 1) < 0.03, high
     ratios = [record["detail"]["mean_facets"] / record["detail"]["expected_facets"]
               for record in records_of(path) if record.get("task") == "counts"]  # fmt: skip
     assert len(ratios) == 12 and all(0.97 < ratio < 1.03 for ratio in ratios), ratios
@@ -147,14 +160,21 @@ def test_scaling_agrees_with_the_expected_numbers_of_facets():
 
 def test_all_makes_a_folder_with_the_report():
     folder = SCRATCH / "all"
+    shutil.rmtree(folder, ignore_errors=True)
     words = ["all", "-o", str(folder), "--dimensions", "3-5", "--points", "40", "--scaling-points", "100,200",
-             "--scaling-dimensions", "4", "--skip-approximate"]  # fmt: skip
+             "--scaling-dimensions", "4", "--parts", "sweep,scaling"]  # fmt: skip
     if shutil.which("gnuplot") is None:
         run(*words, exit_code=1)
         print("not done: the page, because gnuplot is not installed")
     else:
-        run(*words)
+        assert "part 2 of 8, scaling" in run(*words)
         assert "<svg" in (folder / "report.html").read_text(encoding="utf-8")
+        # A part more, and what is there stays and is reported on.
+        before = records_of(folder / "sweep.jsonl")
+        run(*words[:-1], "sweep,joggle", "--resume")
+        assert records_of(folder / "sweep.jsonl") == before and len(records_of(folder / "joggle.jsonl")) == 44
+        assert "### Joggled unit cube" in (folder / "report.md").read_text(encoding="utf-8")
+    assert "### Measured and expected numbers of facets" in (folder / "report.md").read_text(encoding="utf-8")
     assert "## Runtime against dimension" in (folder / "report.md").read_text(encoding="utf-8")
     records = records_of(folder / "sweep.jsonl")
     seen = {(record["points"]["family"], record["points"]["dimension"]) for record in records}
@@ -164,6 +184,7 @@ def test_all_makes_a_folder_with_the_report():
     assert all(record["end"] in ("done", "failed") for record in records)
     assert all(record["end"] == "done" for record in records if record["engine"] == "ndhull")
     assert any(record.get("task") == "counts" for record in records_of(folder / "scaling.jsonl"))
+    run("all", "-o", str(folder), "--parts", "nothing", exit_code=1)
 
 
 def test_halfspaces_have_the_same_vertices_as_qhalf():

@@ -38,6 +38,11 @@ std::string Table::as_text() const {
 std::string Table::as_markdown() const {
   std::string text = fmt::format("### {}\n\n", title);
   if (!note.empty()) text += note + "\n\n";
+  return text + markdown_rows();
+}
+
+std::string Table::markdown_rows() const {
+  std::string text;
   const auto add = [&](const std::vector<std::string>& row) {
     for (const std::string& cell : row) text += "| " + (cell.empty() ? "" : cell + " ");
     text += "|\n";

@@ -19,6 +19,7 @@ struct Table {
   /// Columns as wide as their widest cell.
   std::string as_text() const;
   std::string as_markdown() const;
+  std::string markdown_rows() const;  ///< without title and note
   std::string as_html() const;
 };
 
