@@ -134,6 +134,15 @@ def test_formats_agree_with_each_other_and_qhalf():
         assert rows(found[18:]) == rows(other[18:])
 
 
+def test_vertices_are_written_as_c_writes_them():
+    # Short and long numbers, with and without an exponent.
+    rows = [[1, 0, 0, -0.5], [-1, 0, 0, -2], [0, 1, 0, -1e-5], [0, -1, 0, -1e20], [0, 0, 3, -1], [0, 0, -1, -3]]
+    lines = run("intersect", "-", "--format", "Fp", stdin=qhull_text(rows)).stdout.split("\n")[2:-1]
+    assert len(lines) == 8
+    for line in lines:
+        assert line == "".join("%6.16g " % float(word) for word in line.split()), line
+
+
 def test_interior_points():
     rows = qhull_text(cube(2))
     inside = run("intersect", "-", "--interior-point", "0.5, -0.5", "--report", "-", stdin=rows).stdout
