@@ -20,6 +20,7 @@
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
 #include "approx/point_reduction.h"
+#include "approx/reduced_points.h"
 #include "approx/volume_cover.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -256,11 +257,12 @@ Hull hull_of_reduced(const PointView& points, HullOptions options) {
     const double most = options.limits.max_seconds;
     return options.stop.stop_requested() || (most > 0.0 && seconds_since(start) > kShare * most);
   };
-  std::vector<std::uint32_t> ids = find_points_to_keep(points, options.seed, is_late);
+  const PointShards shards = PointShards::whole(points);
+  std::vector<std::uint32_t> ids = find_points_to_keep(shards, options.seed, is_late);
   constexpr double kWorthACopy = 0.7;
   if (static_cast<double>(ids.size()) > kWorthACopy * static_cast<double>(points.rows))
     return HullBuilder(points, options, start).run();
-  const ReducedPoints reduced(points, std::move(ids));
+  const ReducedPoints reduced(shards, std::move(ids));
   const double seconds = seconds_since(start);
   std::uint64_t& most_bytes = options.limits.max_memory_bytes;
   if (most_bytes > reduced.bytes()) most_bytes -= reduced.bytes();

@@ -1,0 +1,29 @@
+// The points that are furthest along many directions, in one pass over all of them: what a first hull of a
+// large set is well grown from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "approx/point_shards.h"
+#include "core/frame.h"
+
+namespace ndhull {
+
+/// Rows of the whole set and their coordinates.
+struct RowList {
+  std::vector<std::uint32_t> ids;  ///< ascending, each once
+  std::vector<double> rows;        ///< ids.size() x dimension, input units
+};
+
+/// Finds for each of `directions` random directions of the frame the point that is furthest along it, among
+/// those that are at least `least_length` from the frame's centre, in the frame.
+///
+/// Returns   the same for any shards, processes and threads: the largest product in single precision, of
+///           equal ones the first row.
+/// Cost      one pass; directions x dimension multiply-adds for each point that is so far out.
+RowList find_direction_extremes(const PointShards& shards, const Frame& frame, double least_length,
+                                std::size_t directions, std::uint64_t seed);
+
+}  // namespace ndhull
