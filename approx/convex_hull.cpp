@@ -21,6 +21,7 @@
 #include "approx/hull.h"
 #include "approx/point_reduction.h"
 #include "approx/reduced_points.h"
+#include "approx/sharded_hull.h"
 #include "approx/volume_cover.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -248,39 +249,75 @@ class HullBuilder {
 
 namespace {
 
-/// Of a large input, only the points that are not proven to be well inside.
-Hull hull_of_reduced(const PointView& points, HullOptions options) {
-  const Clock::time_point start = Clock::now();
-  if (points.rows < kPointsToReduce) return HullBuilder(points, options, start).run();
+/// Of a large set, the rows of this process that are not proven to be well inside. Nothing when it is not
+/// large, or too few would be dropped.
+std::optional<std::vector<std::uint32_t>> rows_worth_a_copy(const PointShards& shards,
+                                                            const HullOptions& options,
+                                                            Clock::time_point start) {
+  if (shards.rows < kPointsToReduce) return std::nullopt;
   const auto is_late = [&] {
     constexpr double kShare = 0.2;  // of the time, for looking at points that will turn out to be inside
     const double most = options.limits.max_seconds;
     return options.stop.stop_requested() || (most > 0.0 && seconds_since(start) > kShare * most);
   };
-  const PointShards shards = PointShards::whole(points);
   std::vector<std::uint32_t> ids = find_points_to_keep(shards, options.seed, is_late);
+  double kept = 0.0;
+  for (const double number : shards.all_gather({static_cast<double>(ids.size())})) kept += number;
   constexpr double kWorthACopy = 0.7;
-  if (static_cast<double>(ids.size()) > kWorthACopy * static_cast<double>(points.rows))
-    return HullBuilder(points, options, start).run();
-  const ReducedPoints reduced(shards, std::move(ids));
+  if (kept > kWorthACopy * static_cast<double>(shards.rows)) return std::nullopt;
+  return ids;
+}
+
+/// The hull in terms of the rows of `reduced`.
+Hull hull_of_reduced(const ReducedPoints& reduced, std::size_t rows, HullOptions options,
+                     Clock::time_point start) {
   const double seconds = seconds_since(start);
   std::uint64_t& most_bytes = options.limits.max_memory_bytes;
   if (most_bytes > reduced.bytes()) most_bytes -= reduced.bytes();
   const PointView view = reduced.view();
   Hull hull = HullBuilder(view, options, start).run();
-  HullBuilder::rename_points(hull, reduced.ids(), points.rows);
-  hull.statistics.dropped_points = points.rows - reduced.ids().size();
+  hull.statistics.dropped_points = rows - view.rows;
+  if (rows == view.rows) return hull;
   hull.statistics.seconds[static_cast<std::size_t>(Phase::kCertify)] += seconds;
   hull.statistics.detail_seconds.emplace_back("dropping points", seconds);
   return hull;
 }
 
+Hull hull_of(const PointView& points, const HullOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const PointShards whole = PointShards::whole(points);
+  std::optional<std::vector<std::uint32_t>> ids = rows_worth_a_copy(whole, options, start);
+  if (!ids) return HullBuilder(points, options, start).run();
+  const ReducedPoints reduced(whole, std::move(*ids));
+  Hull hull = hull_of_reduced(reduced, points.rows, options, start);
+  HullBuilder::rename_points(hull, reduced.ids(), points.rows);
+  return hull;
+}
+
+tbb::task_arena arena_of(const HullOptions& options) {
+  return tbb::task_arena(options.threads == 0 ? tbb::task_arena::automatic
+                                              : static_cast<int>(options.threads));
+}
+
 }  // namespace
 
 Hull convex_hull(const PointView& points, const HullOptions& options) {
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
-                                             : static_cast<int>(options.threads));
-  return arena.execute([&] { return hull_of_reduced(points, options); });
+  return arena_of(options).execute([&] { return hull_of(points, options); });
+}
+
+std::optional<ShardedHull> convex_hull_of_shards(const PointShards& shards, const HullOptions& options) {
+  return arena_of(options).execute([&]() -> std::optional<ShardedHull> {
+    const Clock::time_point start = Clock::now();
+    std::optional<std::vector<std::uint32_t>> ids = rows_worth_a_copy(shards, options, start);
+    ReducedPoints points(shards, ids ? std::move(*ids) : rows_of(shards));
+    if (shards.exchange != nullptr && !shards.exchange->is_first()) return std::nullopt;
+    Hull hull = hull_of_reduced(points, shards.rows, options, start);
+    return ShardedHull{std::move(hull), std::move(points)};
+  });
+}
+
+void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
+  HullBuilder::rename_points(hull, ids, point_count);
 }
 
 }  // namespace ndhull

@@ -85,6 +85,7 @@ class Reduction {
     for (int pass = 0; pass < kPasses; ++pass) {
       work_.options.pause_rows = rows;
       grow(work_);
+      if (pass == 0 && !drops_many()) break;
       const std::size_t before = left;
       left = drop_inside();
       const bool pays = left > kFewPoints && (pass == 0 || left < before - before / 8);
@@ -166,6 +167,7 @@ class Reduction {
     frame_ = fit_frame(view);
     if (frame_.rank < dimension || dimension < 2 || dimension > kMaxRank) return false;
     append(view);
+    sample_size_ = view.rows;
     const RowList extremes = find_direction_extremes(shards_, frame_, length_of_furthest(),
                                                      kDirections * dimension, work_.options.seed);
     append(PointView::row_major(extremes.rows.data(), extremes.ids.size(), dimension));
@@ -213,6 +215,21 @@ class Reduction {
       length_sq += most * most;
     }
     return std::sqrt(length_sq) * (1.0 + 1e-14);
+  }
+
+  /// Is a part of the sample inside that makes a pass over all points worth its time?
+  bool drops_many() const {
+    constexpr std::size_t kLookedAt = 512, kWorthAPass = 8;  // one of so many
+    const std::size_t step = std::max<std::size_t>(1, sample_size_ / kLookedAt);
+    std::vector<PointId> ids;
+    for (std::size_t row = 0; row < sample_size_; row += step)
+      ids.push_back(PointId{static_cast<std::uint32_t>(row)});
+    const std::vector<LocatedPoint> located = try_inside(work_.complex, coordinates_.data(), ball_, ids);
+    const auto inside =
+        static_cast<std::size_t>(std::count_if(located.begin(), located.end(), [](const LocatedPoint& point) {
+          return point.gauge < -kWellInside;
+        }));
+    return inside * kWorthAPass >= ids.size();
   }
 
   /// Drops the candidates that are inside the hull; returns how many are left, in all processes.
@@ -320,6 +337,7 @@ class Reduction {
   std::vector<double> low_, high_;      // of each column
   Frame frame_;
   std::vector<double> coordinates_;  // of the points that the hull is grown from
+  std::size_t sample_size_ = 0;      // of these, the first
   HullBall ball_;
   InnerEllipsoid ellipsoid_;
   GrowthWork work_;

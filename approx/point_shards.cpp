@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 #include "core/blocks.h"
 #include "core/error.h"
@@ -25,6 +26,17 @@ std::vector<double> PointShards::all_gather(std::vector<double> mine) const {
 bool PointShards::any(bool mine) const {
   const std::vector<double> said = all_gather({mine ? 1.0 : 0.0});
   return std::find(said.begin(), said.end(), 1.0) != said.end();
+}
+
+std::vector<std::uint32_t> rows_of(const PointShards& shards) {
+  std::vector<std::uint32_t> rows;
+  for (const PointShard& part : shards.parts) {
+    const std::size_t first = rows.size();
+    rows.resize(first + part.points.rows);
+    std::iota(rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
+              static_cast<std::uint32_t>(part.first_row));
+  }
+  return rows;
 }
 
 std::vector<ShardBlock> blocks_of(const PointShards& shards) {

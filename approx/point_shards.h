@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -44,6 +45,9 @@ struct PointShards {
   /// Does any process say so? The answer is the same for all.
   bool any(bool mine) const;
 };
+
+/// All rows that this process holds, ascending.
+std::vector<std::uint32_t> rows_of(const PointShards& shards);
 
 /// Rows of one part that one thread takes at a time: 1 MB of 8-d single precision. A multiple of 64.
 inline constexpr std::size_t kShardBlock = 1 << 15;

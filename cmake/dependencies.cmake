@@ -12,3 +12,9 @@ find_package(CLI11 2 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(FastFloat 3 REQUIRED)
 find_package(glm REQUIRED)
+
+# Optional: --points-sharded on several processes. Without it the option reads all files in one.
+find_package(MPI COMPONENTS CXX QUIET)
+if(NOT TARGET MPI::MPI_CXX)
+  message(STATUS "MPI was not found: ndhull hull --points-sharded works in one process only")
+endif()

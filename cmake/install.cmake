@@ -13,6 +13,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ndhull DESTINATION ${CMAKE_INSTA
 if(TARGET ndhull)
   install(TARGETS ndhull RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+if(TARGET ndhull_mpi)
+  install(TARGETS ndhull_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ndhull)
+endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ndhull)
 install(EXPORT ndhull-targets NAMESPACE ndhull:: DESTINATION ${package_dir})

@@ -111,6 +111,14 @@ FileBytes FileBytes::copy_of(std::string_view content) {
   return bytes;
 }
 
+FileBytes FileBytes::of_size(std::size_t size) {
+  FileBytes bytes;
+  bytes.buffer_.resize(size);
+  bytes.data_ = bytes.buffer_.data();
+  bytes.size_ = size;
+  return bytes;
+}
+
 std::string display_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 std::string extension_of(const std::string& path) {

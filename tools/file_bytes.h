@@ -30,7 +30,12 @@ class FileBytes {
   /// Bytes that are in memory already.
   static FileBytes copy_of(std::string_view content);
 
+  /// Zeros, to be written to.
+  static FileBytes of_size(std::size_t size);
+
   std::string_view view() const { return {data_, size_}; }
+  /// Of bytes that are in memory; null for a mapping.
+  char* writable() { return is_mapping() ? nullptr : buffer_.data(); }
   /// A file, mapped: not a pipe, nor a copy.
   bool is_mapping() const { return mapping_ != nullptr; }
   /// The first `count` bytes were read and are not needed for now: those of a mapped file leave the memory,

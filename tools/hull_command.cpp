@@ -1,5 +1,7 @@
 #include "tools/hull_command.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "core/error.h"
@@ -68,6 +70,10 @@ PlaneKind plane_kind_of(const std::string& name) {
 /// Reads what CLI11 left as text.
 HullRequest complete_request(const CLI::App& command, const Arguments& arguments) {
   HullRequest request = arguments.request;
+  if (request.points_path.empty() == request.shards_pattern.empty()) {
+    throw Error(ErrorCode::kUsage, fmt::format("found {}, expected POINTS or --points-sharded PATTERN",
+                                               request.points_path.empty() ? "no points" : "both"));
+  }
   request.options = arguments.hull.complete();
   check_selection(request.selection);
   request.plane_kind = plane_kind_of(arguments.plane_kind);
@@ -89,8 +95,13 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("hull", "The convex hull of points, with certified planes; prints a summary.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
       ->type_name("")
-      ->check(path_name())
-      ->required();
+      ->check(path_name());
+  command
+      ->add_option(
+          "--points-sharded", arguments->request.shards_pattern,
+          "instead of POINTS: the points of all files of this pattern, in the order of their names; with "
+          "mpirun each process reads a share of them")
+      ->type_name("PATTERN");
   arguments->hull.add_to(*command);
   add_selection_options(*command, arguments->request.selection);
   add_output_options(*command, *arguments);
@@ -99,12 +110,16 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       "A selection (--largest, --min-area, --most-merged; several: their intersection) says which facets "
       "are\n"
       "written to --planes, --facet-list and --format. --vertices and all else are those of the whole hull.\n"
+      "With several processes the planes are those of one with all points, bit for bit; --format and --curve "
+      "want "
+      "one.\n"
       "A limit that is hit ends growth; what there is is certified, written, and `status` in the report says "
       "so.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull hull points.npy --planes outer.ine --report report.json") + "\n" +
-      example("ndhull hull points.npy --largest 20 --bounded --planes outer.ine"));
+      example("ndhull hull points.npy --largest 20 --bounded --planes outer.ine") + "\n" +
+      example("mpirun -n 4 ndhull hull --points-sharded 'part-*.npy' --width 5% --planes outer.npy"));
   command->callback(
       [arguments, command, &exit_code] { exit_code = run_hull(complete_request(*command, *arguments)); });
 }

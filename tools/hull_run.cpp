@@ -13,13 +13,14 @@
 #include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "core/error.h"
+#include "tools/hull_input.h"
 #include "tools/hull_summary.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/plane_writer.h"
-#include "tools/point_reader.h"
+#include "tools/process_group.h"
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
 #include "tools/selection_options.h"
@@ -137,10 +138,18 @@ void write_report(const std::string& path, const Hull& hull, const ReportContext
   file.commit();
 }
 
-}  // namespace
+/// What a process computes that is not the first of several: nothing is printed or written.
+HullRequest silent(const HullRequest& request) {
+  HullRequest rest;
+  rest.shards_pattern = request.shards_pattern;
+  rest.options = request.options;
+  rest.verify = request.verify;
+  rest.quiet = true;
+  return rest;
+}
 
-int run_hull(const HullRequest& request) {
-  const Clock::time_point start = Clock::now();
+/// `group`: null for one process.
+int run_process(const HullRequest& request, const ProcessGroup* group, Clock::time_point start) {
   const std::vector<NamedOutput> outputs = outputs_of(request);
   check_outputs_differ(outputs);
   Interrupt interrupt;
@@ -149,9 +158,9 @@ int run_hull(const HullRequest& request) {
                                                      : static_cast<int>(request.options.threads));
 
   progress.show_phase("read");
-  const PointFile points = read_points(request.points_path);
-  check_outputs_are_writable(outputs);
-  ReportContext context{.input_path = request.points_path,
+  HullInput input(request.points_path, request.shards_pattern, group,
+                  [&] { check_outputs_are_writable(outputs); });
+  ReportContext context{.input_path = request.shards_pattern + request.points_path,
                         .options = request.options,
                         .program_options = program_options(request),
                         .facet_list = request.facet_list};
@@ -168,21 +177,28 @@ int run_hull(const HullRequest& request) {
   interrupt.arm();
   HullOptions hull_options = context.options;
   hull_options.limits = limits_left(hull_options.limits, seconds_since(start), resident_memory_bytes());
-  const Hull hull = convex_hull(points.view(), hull_options);
+  std::optional<Hull> computed = input.compute(hull_options);
 
   std::optional<Verification> verification;
   if (request.verify.has_value()) {
     progress.show_phase("verify");
     const Clock::time_point verify_start = Clock::now();
-    arena.execute([&] { verification = verify_hull(points.view(), hull, *request.verify); });
+    std::string failure;
+    arena.execute([&] {
+      failure = input.verify(computed ? &*computed : nullptr, *request.verify, context.options.threads,
+                             verification.emplace());
+    });
     context.verify_seconds = seconds_since(verify_start);
     context.verification = &*verification;
-    if (!verification->passed()) {
+    if (!failure.empty()) {
       progress.clear();
-      fmt::print(stderr, "ndhull: verify: {}\n", verification->first_failure());
+      fmt::print(stderr, "ndhull: verify: {}\n", failure);
       return kVerificationFailedExitCode;
     }
   }
+  if (!computed) return 0;  // the first process has it, and goes on alone
+  Hull& hull = *computed;
+  const PointView points = input.view();
 
   std::optional<FacetSelection> selection;
   if (request.selection.is_set()) {
@@ -207,7 +223,7 @@ int run_hull(const HullRequest& request) {
       const std::uint64_t limit =
           request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
       arena.execute([&] {
-        outer_reach = outer_distance(hull, points.view(), selection->facets, limit, context.options.threads,
+        outer_reach = outer_distance(hull, points, selection->facets, limit, context.options.threads,
                                      context.options.stop);
       });
       context.outer_distance = &*outer_reach;
@@ -216,7 +232,8 @@ int run_hull(const HullRequest& request) {
 
   progress.show_phase("write");
   const Clock::time_point write_start = Clock::now();
-  write_results(request, hull, points.view(), context.selection);
+  input.number_as_whole(hull);
+  write_results(request, hull, points, context.selection);
   context.write_seconds = seconds_since(write_start);
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();
@@ -226,10 +243,9 @@ int run_hull(const HullRequest& request) {
     progress.show_phase("curve");
     hull_options.progress = nullptr;
     hull_options.limits = limits_left(request.options.limits, seconds_since(start), resident_memory_bytes());
-    write_trade_curve(
-        curve_paths(request.curve_path),
-        trade_curve(points.view(), hull_options, hull, context.total_seconds - context.read_seconds),
-        request.options.unit_cube ? "unit cube" : "input");
+    write_trade_curve(curve_paths(request.curve_path),
+                      trade_curve(points, hull_options, hull, context.total_seconds - context.read_seconds),
+                      request.options.unit_cube ? "unit cube" : "input");
     progress.clear();
   }
   if (is_summary) {
@@ -238,6 +254,34 @@ int run_hull(const HullRequest& request) {
     file.commit();
   }
   return interrupt.requested() ? kInterruptedExitCode : 0;
+}
+
+/// One of several processes.
+int run_in_group(HullRequest request, const ProcessGroup& group, Clock::time_point start) {
+  if (request.options.threads == 0) {
+    const auto cores = static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
+    request.options.threads = std::max(1U, cores / static_cast<unsigned>(group.processes_on_machine()));
+  }
+  try {
+    if (!request.formats.empty() || !request.curve_path.empty()) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("{}: found {} processes, expected one; start it without mpirun",
+                              request.formats.empty() ? "--curve" : "--format", group.size()));
+    }
+    return run_process(group.is_first() ? request : silent(request), &group, start);
+  } catch (const Error&) {
+    if (group.is_first()) throw;
+    return 0;  // the first process prints it for all, before mpirun ends them for its exit code
+  }
+}
+
+}  // namespace
+
+int run_hull(const HullRequest& request) {
+  const Clock::time_point start = Clock::now();
+  std::unique_ptr<ProcessGroup> group;
+  if (!request.shards_pattern.empty()) group = join_processes();
+  return group == nullptr ? run_process(request, nullptr, start) : run_in_group(request, *group, start);
 }
 
 }  // namespace ndhull

@@ -15,6 +15,7 @@ namespace ndhull {
 /// The command line of `ndhull hull`. Paths are empty when the output is not wanted; "-" is standard output.
 struct HullRequest {
   std::string points_path;
+  std::string shards_pattern;  ///< instead: of files, shared out among the processes that mpirun started
   HullOptions options;
   SelectionOptions selection;
   bool outer_volume = false;  ///< for the report and the summary, whatever it costs
@@ -38,6 +39,9 @@ struct HullRequest {
 /// Reads the points, computes their hull, selects facets and verifies it if asked, and writes what was asked
 /// for, the report last; without any output prints a summary. A selection whose outer planes do not bound a
 /// region is said on standard error.
+///
+/// Several processes: the first one writes and prints, the others return 0 or the exit code of an error that
+/// it prints for all. One that fails on its own prints that and ends all.
 ///
 /// Returns  0; 2 when a claim of the hull failed, which is said on standard error and nothing is written;
 ///          130 when Ctrl-C came: what there is was written.
