@@ -22,8 +22,10 @@ constexpr double kSharePerProduct = 1.0 / 5000.0;
 constexpr double kMergeShare = 3.0;
 /// Slabs, of an approximate hull.
 constexpr double kCoverShare = 10.0;
-/// Points that are located to learn what that costs.
+/// Points that are located to learn what that costs; and what walking adds where climbing proves nothing, and
+/// the longer ways in a hull that may be twice as large by then: 10-d spheres.
 constexpr std::size_t kSampledPoints = 64;
+constexpr double kPointShare = 1.5;
 
 /// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
 /// determinant, offsets, widths, area and own id.
@@ -87,7 +89,7 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
       sample.push_back(PointId{static_cast<std::uint32_t>(id)});
     const Clock::time_point begin = Clock::now();
     try_inside(work.complex, work.points, ball, sample);
-    seconds_per_point_ = seconds_since(begin) / static_cast<double>(sample.size());
+    seconds_per_point_ = kPointShare * seconds_since(begin) / static_cast<double>(sample.size());
   }
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
