@@ -111,7 +111,7 @@ FacetClusters Approximation::run_merging() {
     make_space(true);
     const SimplexRule simplex_rule(growth_.work().complex, *space_, rule);
     SlabCover cover(growth_.work().complex, *space_, is_convex(), &simplex_rule);
-    covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{});
+    covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{.final_fit_steps = 0});
     counts = merge_clusters(growth_.work().complex, *space_, rule, covering);
     if (!keeps_hull(covering)) {
       rule.width_cap *= 0.75;  // what was merged bounds no region any more

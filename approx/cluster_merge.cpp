@@ -14,7 +14,7 @@ constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 /// Turning a plane halves the width of a union at best: what is this many times too wide is not turned.
 constexpr double kHopeless = 2.0;
 constexpr unsigned kTrialSteps = 6;   // of the fit when a pair is judged
-constexpr unsigned kMergeSteps = 16;  // when it is merged
+constexpr unsigned kMergeSteps = 16;  // and in all when it is merged
 
 class Merging {
  public:
@@ -42,14 +42,21 @@ class Merging {
   struct Cluster {
     FittedPlane plane;
     std::vector<std::uint32_t> vertices, neighbours;  // sorted
+    std::vector<std::uint32_t> tops;                  // points that made the plane's height
     std::vector<double> centrum;
     std::uint32_t version = 0;
     std::uint32_t joined = kNone;
   };
+  /// What the width of an offer is: each stage's is no less than that of the one before, and costs more.
+  enum class Stage : std::uint8_t {
+    kParts,   // the wider of the two
+    kTops,    // of the union, were there no other points than its vertices and the tops of the two
+    kFitted,  // of a fit with the points near it
+  };
   struct Offer {
     double width;
     std::uint32_t a, b, version_a, version_b;
-    bool is_fitted;
+    Stage stage;
     bool operator<(const Offer& other) const {
       if (width != other.width) return width > other.width;
       return a != other.a ? a > other.a : b > other.b;
@@ -79,6 +86,7 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
+    const auto point_count = static_cast<std::ptrdiff_t>(space_.table().count());
     for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
       facet_seen[id] = id;
@@ -91,6 +99,8 @@ class Merging {
       std::sort(cluster.vertices.begin(), cluster.vertices.end());
       std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
       cluster.plane = measure_plane(space_, covering_.planes[id].normal, cluster.vertices, work_);
+      const auto highest = std::max_element(work_.dots.begin(), work_.dots.begin() + point_count);
+      cluster.tops.assign(1, static_cast<std::uint32_t>(highest - work_.dots.begin()));
       cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
     }
   }
@@ -99,8 +109,9 @@ class Merging {
     return rule_.wants(a.plane, a.centrum, b.plane, b.centrum);
   }
 
-  /// The mean of the normals, weighted by the number of vertices, as a plane of the union (united_).
-  FittedPlane mean_plane(const Cluster& a, const Cluster& b) {
+  /// The union's vertices (united_) and the mean of the normals, weighted by the number of vertices
+  /// (normal_).
+  void unite(const Cluster& a, const Cluster& b) {
     united_.clear();
     std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
                    std::back_inserter(united_));
@@ -113,6 +124,10 @@ class Merging {
     }
     if (!(length_sq > 0.0)) normal_ = a.plane.normal, length_sq = 1.0;
     for (double& entry : normal_) entry /= std::sqrt(length_sq);
+  }
+
+  FittedPlane mean_plane(const Cluster& a, const Cluster& b) {
+    unite(a, b);
     return measure_plane(space_, normal_, united_, work_);
   }
 
@@ -123,50 +138,79 @@ class Merging {
     const Cluster& second = clusters_[b];
     if (!is_wanted(first, second)) return;
     const double least = std::max(first.plane.width(), second.plane.width());
-    offers_.push({least, a, b, first.version, second.version, false});
+    offers_.push({least, a, b, first.version, second.version, Stage::kParts});
   }
 
-  /// The same with the width of a fit.
-  void offer(std::uint32_t a, std::uint32_t b) {
+  /// The same with the width among the union's vertices and tops: most pairs that are too wide are so for
+  /// these.
+  void offer_tops(std::uint32_t a, std::uint32_t b, double least) {
     const Cluster& first = clusters_[a];
     const Cluster& second = clusters_[b];
-    if (!is_wanted(first, second)) return;
-    const FittedPlane start = mean_plane(first, second);
+    unite(first, second);
+    near_ = united_;
+    near_.insert(near_.end(), first.tops.begin(), first.tops.end());
+    near_.insert(near_.end(), second.tops.begin(), second.tops.end());
+    const double width = turn_among(space_, normal_, near_, united_, kTrialSteps, work_);
+    if (width > rule_.width_cap) return;
+    offers_.push({std::max(width, least), a, b, first.version, second.version, Stage::kTops});
+  }
+
+  /// The same with the width of a fit; what is the narrowest offer even so is taken at once.
+  void offer_fit(std::uint32_t a, std::uint32_t b) {
+    const FittedPlane start = mean_plane(clusters_[a], clusters_[b]);
     if (start.width() > kHopeless * rule_.width_cap) return;
     const double width = turn_among_near(space_, start, united_, kTrialSteps, work_);
-    if (width <= rule_.width_cap) offers_.push({width, a, b, first.version, second.version, true});
+    if (width > rule_.width_cap) return;
+    const Offer fitted{width, a, b, clusters_[a].version, clusters_[b].version, Stage::kFitted};
+    if (!offers_.empty() && fitted < offers_.top()) {
+      offers_.push(fitted);
+    } else {
+      merge(a, b, start);
+    }
   }
 
   void take(const Offer& best) {
-    if (clusters_[best.a].joined != kNone || clusters_[best.b].joined != kNone) return;
-    Cluster& into = clusters_[best.a];
-    Cluster& from = clusters_[best.b];
+    const Cluster& into = clusters_[best.a];
+    const Cluster& from = clusters_[best.b];
+    if (into.joined != kNone || from.joined != kNone) return;
     if (into.version != best.version_a || from.version != best.version_b) return;  // announced anew since
-    if (!best.is_fitted) {
-      offer(best.a, best.b);
-      return;
+    switch (best.stage) {
+      case Stage::kParts: return offer_tops(best.a, best.b, best.width);
+      case Stage::kTops: return offer_fit(best.a, best.b);
+      case Stage::kFitted: break;
     }
     const FittedPlane start = mean_plane(into, from);
-    FittedPlane plane = narrow_plane(space_, start, united_, kMergeSteps, work_);
+    turn_among_near(space_, start, united_, kTrialSteps, work_);
+    merge(best.a, best.b, start);
+  }
+
+  /// Merges b into a if that is within the cap: united_ and work_ are those of the trial fit from `start`.
+  void merge(std::uint32_t a, std::uint32_t b, const FittedPlane& start) {
+    turn_among(space_, work_.best, work_.near, united_, kMergeSteps - kTrialSteps, work_);
+    FittedPlane plane = measure_plane(space_, work_.best, united_, work_);
+    if (plane.width() > start.width()) plane = start;
     if (plane.width() > rule_.width_cap) return;
+    Cluster& into = clusters_[a];
+    Cluster& from = clusters_[b];
     ++counts_.merges;
     --live_;
     into.plane = std::move(plane);
     into.vertices = united_;
+    into.tops = work_.tops;
     ++into.version;
-    from.joined = best.a;
+    from.joined = a;
     std::vector<std::uint32_t> around;
     std::set_union(into.neighbours.begin(), into.neighbours.end(), from.neighbours.begin(),
                    from.neighbours.end(), std::back_inserter(around));
-    std::erase_if(around, [&](std::uint32_t id) { return id == best.a || id == best.b; });
+    std::erase_if(around, [&](std::uint32_t id) { return id == a || id == b; });
     into.neighbours = std::move(around);
     into.centrum = centrum_on_plane(space_, into.vertices, into.plane);
     for (const std::uint32_t id : into.neighbours) {
-      rename(clusters_[id].neighbours, best.b, best.a);
-      announce(std::min(best.a, id), std::max(best.a, id));
+      rename(clusters_[id].neighbours, b, a);
+      announce(std::min(a, id), std::max(a, id));
     }
-    from =
-        Cluster{.plane = {}, .vertices = {}, .neighbours = {}, .centrum = {}, .version = 0, .joined = best.a};
+    from = Cluster{
+        .plane = {}, .vertices = {}, .neighbours = {}, .tops = {}, .centrum = {}, .version = 0, .joined = a};
   }
 
   static void rename(std::vector<std::uint32_t>& sorted, std::uint32_t from, std::uint32_t to) {
@@ -208,7 +252,7 @@ class Merging {
   std::vector<Cluster> clusters_;
   std::size_t live_ = 0;
   std::priority_queue<Offer> offers_;
-  std::vector<std::uint32_t> united_;
+  std::vector<std::uint32_t> united_, near_;
   std::vector<double> normal_;
   PlaneFitWork work_;
   MergeCounts counts_;

@@ -32,6 +32,10 @@ ExtremePair find_near_extremes(PlaneFitWork& work, std::span<const double> norma
   return pair;
 }
 
+void add_top(std::uint32_t row, std::vector<std::uint32_t>& tops) {
+  if (std::find(tops.begin(), tops.end(), row) == tops.end()) tops.push_back(row);
+}
+
 void gather(const WidthSpace& space, std::span<const std::uint32_t> from, PlaneFitWork& work,
             SupportTable& table) {
   work.rows.resize(from.size() * space.rank());
@@ -52,31 +56,24 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
   return plane;
 }
 
-double turn_among_near(const WidthSpace& space, const FittedPlane& start,
-                       std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
+double turn_among(const WidthSpace& space, std::span<const double> normal,
+                  std::span<const std::uint32_t> near, std::span<const std::uint32_t> vertices,
+                  unsigned steps, PlaneFitWork& work) {
   const std::size_t rank = space.rank();
-  work.near.clear();
-  space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
-  if (work.near.size() > kManyNear) {
-    const auto end = work.near.begin() + static_cast<std::ptrdiff_t>(kManyNear);
-    std::nth_element(work.near.begin(), end, work.near.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return work.dots[a] != work.dots[b] ? work.dots[a] > work.dots[b] : a < b;
-    });
-    work.near.erase(end, work.near.end());
-  }
-  gather(space, work.near, work, work.near_table);
+  gather(space, near, work, work.near_table);
   gather(space, vertices, work, work.facet_table);
   work.products.resize(std::max(work.near_table.padded_count(), work.facet_table.padded_count()));
-  work.trial.assign(start.normal.begin(), start.normal.end());
+  work.trial.assign(normal.begin(), normal.end());
   work.next.resize(rank);
   work.best = work.trial;
   ExtremePair pair = find_near_extremes(work, work.trial);
+  work.tops.assign(1, near[pair.high]);
   double best_width = pair.width();
   double step = 0.25;  // of the way to width 0, were the width linear
   for (unsigned i = 0; i < steps; ++i) {
     double across_sq = 0.0;
     const double along = pair.width();
-    const double* high = space.row(work.near[pair.high]);
+    const double* high = space.row(near[pair.high]);
     const double* low = space.row(vertices[pair.low]);
     for (std::size_t k = 0; k < rank; ++k) {
       work.next[k] = high[k] - low[k] - along * work.trial[k];
@@ -88,6 +85,7 @@ double turn_among_near(const WidthSpace& space, const FittedPlane& start,
     const double scale = 1.0 / std::sqrt(dot(rank, work.next.data(), work.next.data()));
     for (std::size_t k = 0; k < rank; ++k) work.trial[k] = work.next[k] * scale;
     pair = find_near_extremes(work, work.trial);
+    add_top(near[pair.high], work.tops);
     if (pair.width() < best_width) {
       best_width = pair.width();
       work.best = work.trial;
@@ -96,6 +94,20 @@ double turn_among_near(const WidthSpace& space, const FittedPlane& start,
     }
   }
   return best_width;
+}
+
+double turn_among_near(const WidthSpace& space, const FittedPlane& start,
+                       std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
+  work.near.clear();
+  space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
+  if (work.near.size() > kManyNear) {
+    const auto end = work.near.begin() + static_cast<std::ptrdiff_t>(kManyNear);
+    std::nth_element(work.near.begin(), end, work.near.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return work.dots[a] != work.dots[b] ? work.dots[a] > work.dots[b] : a < b;
+    });
+    work.near.erase(end, work.near.end());
+  }
+  return turn_among(space, start.normal, work.near, vertices, steps, work);
 }
 
 FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,

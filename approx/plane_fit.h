@@ -23,6 +23,7 @@ struct FittedPlane {
 struct PlaneFitWork {
   std::vector<double> dots;         ///< of the last measured direction with all points
   std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first
+  std::vector<std::uint32_t> tops;  ///< of these, the rows that were highest at some step of the last fit
   std::vector<double> rows, products, trial, next, best;
   SupportTable near_table, facet_table;
   std::uint64_t evaluations = 0;  ///< products of one direction with all points, ever
@@ -44,6 +45,12 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
 /// Source    Shor. Minimization Methods for Non-Differentiable Functions. 1985 (subgradient steps).
 double turn_among_near(const WidthSpace& space, const FittedPlane& start,
                        std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work);
+
+/// The same from `normal` with the points `near` alone, which hold the facet's vertices: what comes out is as
+/// narrow as the facet can be, but for what the steps miss. No product with other points.
+double turn_among(const WidthSpace& space, std::span<const double> normal,
+                  std::span<const std::uint32_t> near, std::span<const std::uint32_t> vertices,
+                  unsigned steps, PlaneFitWork& work);
 
 /// The plane so turned, measured with all points, or `start` if that is no wider. work.dots are those of what
 /// is returned.
