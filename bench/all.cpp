@@ -1,6 +1,7 @@
 // `ndhull-bench all`: one command from nothing to the report.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <functional>

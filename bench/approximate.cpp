@@ -3,6 +3,7 @@
 // exact one.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <set>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "core/error.h"
 #include "tests/support/named_polytopes.h"
 #include "tools/point_reader.h"

@@ -1,13 +1,16 @@
 // The fixed list of inputs that measurements are made on, and how a command line picks from it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/point_set.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ndhull {
 

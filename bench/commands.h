@@ -1,8 +1,11 @@
 // The commands of ndhull-bench, one file each. Each adds itself to the program, with its options.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
+
+namespace CLI {
+class App;
+}
 
 namespace ndhull {
 

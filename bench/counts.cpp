@@ -2,6 +2,7 @@
 // machine whose clock nobody trusts. bench/data/counts.jsonl is what it was when the engine last changed.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <cstdlib>

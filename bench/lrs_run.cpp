@@ -9,8 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "bench/hull_run.h"
 
@@ -60,11 +61,13 @@ HullRun run_lrs(const BenchInput& input) {
   const int status = pipe == nullptr ? -1 : pclose(pipe);
   run.wall_seconds = watch.wall_seconds();
   std::filesystem::remove(path);
-  std::smatch match;
-  if (status != 0 || !std::regex_search(output, match, std::regex("Totals: facets=([0-9]+)"))) {
+  constexpr std::string_view kFacets = "Totals: facets=";
+  const std::size_t place = output.find(kFacets);
+  const char* const digits = output.c_str() + (place == std::string::npos ? 0 : place + kFacets.size());
+  run.facets = std::strtoull(digits, nullptr, 10);
+  if (status != 0 || place == std::string::npos || run.facets == 0) {
     throw std::runtime_error("lrs (Debian package lrslib) gave no number of facets");
   }
-  run.facets = std::stoull(match[1].str());
   run.detail = {{"rounded_to", 1.0 / kDenominator}};
   return run;
 }

@@ -2,13 +2,16 @@
 // interrupted.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "bench/run_plan.h"
 #include "bench/table.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ndhull {
 

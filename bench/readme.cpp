@@ -1,6 +1,7 @@
 // `ndhull-bench readme`: the measured tables of READMEs from a folder of results.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
 #include <memory>

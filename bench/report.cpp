@@ -1,6 +1,7 @@
 // `ndhull-bench report`: results of earlier runs as one page that needs nothing else, or as Markdown.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <set>

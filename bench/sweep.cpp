@@ -1,6 +1,7 @@
 // `ndhull-bench sweep`: families x dimensions x numbers of points x options, both engines.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>

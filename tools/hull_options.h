@@ -1,10 +1,13 @@
 // The options that say which hull is wanted, for every command that computes one.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "approx/hull.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ndhull {
 
