@@ -1,8 +1,5 @@
 #include "approx/facet_table.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -92,8 +89,8 @@ void find_highest(const CertificatePoints& points, std::span<const double> norma
   }
   const PointGroups groups(dimension, points.rows, count < kFewFacets);
   const auto find = [&](std::size_t first, std::size_t last, std::size_t own_count) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kFacetsAtATime), [&](const auto& facets) {
-      const std::size_t begin = facets.begin(), size = facets.size();
+    for_each_block(last - first, kFacetsAtATime, [&](std::size_t block_begin, std::size_t block_end) {
+      const std::size_t begin = first + block_begin, size = block_end - block_begin;
       highest_dots(groups, normals.subspan(begin * dimension, size * dimension),
                    {own.low.subspan(begin, size), own.high.subspan(begin, size), own_count},
                    highest.subspan(begin, size));

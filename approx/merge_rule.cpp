@@ -1,10 +1,10 @@
 #include "approx/merge_rule.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
+
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -53,8 +53,8 @@ SimplexRule::SimplexRule(const SimplicialComplex& complex, const WidthSpace& spa
       heights_(complex.row_count) {
   const std::size_t rank = complex.rank;
   tbb::enumerable_thread_specific<PlaneFitWork> work;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, complex.row_count, 256), [&](const auto& range) {
-    for (std::size_t row = range.begin(); row != range.end(); ++row) {
+  for_each_block(complex.row_count, 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row != end; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
       const SimplexId simplex{static_cast<std::uint32_t>(row)};
       std::vector<double> normal(rank);

@@ -1,12 +1,11 @@
 #include "approx/slab_cover.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <queue>
+
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -60,9 +59,8 @@ Covering SlabCover::cover(double width, const CoverEffort& effort) {
 }
 
 void SlabCover::add_slabs(std::span<GrownSlab> batch, double width, const CoverEffort& effort) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size()), [&](const auto& range) {
-    SlabScratch& scratch = scratch_.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i) grower_.grow(batch[i], width, effort, scratch);
+  for_each_block(batch.size(), 1, [&](std::size_t i, std::size_t) {
+    grower_.grow(batch[i], width, effort, scratch_.local());
   });
   for (GrownSlab& slab : batch) {
     for (const std::uint32_t member : slab.members) count_up(hits_[member]);
@@ -158,8 +156,8 @@ void SlabCover::measure_facets(Covering& covering, double width, const CoverEffo
   const auto members_of_facet = [&](std::size_t facet) {
     return Members(order.data() + count[facet], count[facet + 1] - count[facet]);
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, covering.planes.size(), 16), [&](const auto& range) {
-    for (std::size_t facet = range.begin(); facet != range.end(); ++facet)
+  for_each_block(covering.planes.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t facet = begin; facet != end; ++facet)
       settle(members_of_facet(facet), width, effort, covering.planes[facet]);
   });
   std::uint32_t used = 0;
