@@ -136,7 +136,7 @@ void CertifiedGrowth::grow_exactly() {
         prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), work_.options.shift,
                      searched_all);
     const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && repair(located);
-    if (!repaired) choose_certificate_points(located);
+    if (!repaired) list_left_out(located);
     seconds(Phase::kCertify) += seconds_since(phase_start);
     if (!repaired) break;
     ++hull_.statistics.repair_rounds;
@@ -164,8 +164,8 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
   tell(Phase::kCertify, work_.points_outside, furthest_height());
   // What is left out on purpose is not near enough to the hull to be proven outside by rounding and no more.
   const double useful = std::max(work_.options.shift, useful_slack);
-  choose_certificate_points(prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(),
-                                         useful, searched_all));
+  list_left_out(prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), useful,
+                             searched_all));
   seconds(Phase::kCertify) += seconds_since(begin);
   report_counters();
 }
@@ -313,9 +313,8 @@ bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
   return any;
 }
 
-/// Vertices, and points so near the hull (or outside, after a limit) that only their distances will do.
-/// When that would cost too much the points outside are covered by their gauge.
-void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>& located) {
+/// Points so near the hull (or outside, after a limit) that only their distances will do.
+void CertifiedGrowth::list_left_out(const std::vector<LocatedPoint>& located) {
   double largest_gauge = 0.0;
   left_out_.clear();
   for (const LocatedPoint& point : located) {
@@ -323,9 +322,14 @@ void CertifiedGrowth::choose_certificate_points(const std::vector<LocatedPoint>&
     if (point.gauge > -kWellInside) left_out_.push_back(point);
   }
   hull_.max_outside_gauge = largest_gauge;
-  const double live = static_cast<double>(work_.complex.row_count - work_.free_count);
-  const double products = live * static_cast<double>(left_out_.size() * frame_.dimension);
   covered_gauge_ = 0.0;
+}
+
+/// When the distances would cost too much the points outside are covered by their gauge.
+void CertifiedGrowth::choose_certificate_points(std::size_t facets) {
+  const double largest_gauge = hull_.max_outside_gauge;
+  const double products =
+      static_cast<double>(facets) * static_cast<double>(left_out_.size() * frame_.dimension);
   const double affordable =
       std::min(kAffordableProducts, limits_.affordable_products(work_, options_.stop.stop_requested()));
   if (products > affordable && std::isfinite(largest_gauge)) {

@@ -63,6 +63,9 @@ class CertifiedGrowth {
   double furthest_height() const;
   /// Points that are no vertices and not well inside, each with the simplex it is above.
   const std::vector<LocatedPoint>& left_out() const { return left_out_; }
+  /// Takes the points that are left out among those that the planes of so many facets are certified with, or,
+  /// where they are too many, covers them by their gauge: then widths are larger than they need be.
+  void choose_certificate_points(std::size_t facets);
   /// One flag a point: vertex of a simplex, or left out.
   std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
   /// Of the wanted points, neighbours together; empty: not known.
@@ -83,7 +86,7 @@ class CertifiedGrowth {
   void prove_early();
   std::vector<PointId> points_off_the_complex();
   bool repair(const std::vector<LocatedPoint>& located);
-  void choose_certificate_points(const std::vector<LocatedPoint>& located);
+  void list_left_out(const std::vector<LocatedPoint>& located);
   double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
   void detail(std::string_view name, Clock::time_point since);
 

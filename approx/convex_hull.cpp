@@ -177,6 +177,7 @@ class HullBuilder {
     for (std::uint32_t id = 0; id < points_.rows; ++id) {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
+    growth_->choose_certificate_points(hull_.layout_.facets);
     CertificatePoints certificate = gather_certificate_points(points_, frame_, growth_->certificate_wanted());
     certificate.order = growth_->take_certificate_order();
     hull_.reference = certificate.reference;
