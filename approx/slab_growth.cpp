@@ -95,19 +95,40 @@ std::span<const std::uint32_t> SlabGrower::vertices_of(std::span<const std::uint
   return scratch.vertices;
 }
 
+double SlabGrower::dot_of(const double* normal, std::uint32_t row) const {
+  const double* z = space_.row(row);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < complex_.rank; ++k) sum += normal[k] * z[k];
+  return sum;
+}
+
+void SlabGrower::flood_unmeasured(std::uint32_t seed, const FittedPlane& plane, double width,
+                                  SlabScratch& scratch) const {
+  const double* normal = plane.normal.data();
+  flood(seed, plane, width, scratch, [&](std::uint32_t row) { return dot_of(normal, row); });
+}
+
 /// Where the hull is convex the seed's own plane supports it, and a flood needs the products of few vertices.
 void SlabGrower::flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const {
-  const double* normal = slab.plane.normal.data();
-  const auto dot_of = [&](std::uint32_t row) {
-    const double* z = space_.row(row);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < complex_.rank; ++k) sum += normal[k] * z[k];
-    return sum;
-  };
   slab.plane.height = -HUGE_VAL;
   for (const PointId id : complex_.vertices(SimplexId{slab.seed}))
-    slab.plane.height = std::max(slab.plane.height, dot_of(space_.row_of(id)));
-  flood(slab.seed, slab.plane, width, scratch, dot_of);
+    slab.plane.height = std::max(slab.plane.height, dot_of(slab.plane.normal.data(), space_.row_of(id)));
+  flood_unmeasured(slab.seed, slab.plane, width, scratch);
+}
+
+/// Elsewhere the parallel plane does that supports all points; false when the seed is too far below that.
+bool SlabGrower::flood_from_supporting_plane(GrownSlab& slab, double width, SlabScratch& scratch) const {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const PointId id : complex_.vertices(SimplexId{slab.seed})) {
+    const double dot = dot_of(slab.plane.normal.data(), space_.row_of(id));
+    low = std::min(low, dot);
+    high = std::max(high, dot);
+  }
+  slab.plane.height = space_.height_of(slab.plane.normal, high);
+  if (slab.plane.height - low > width) return false;
+  slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.height - low)));
+  flood_unmeasured(slab.seed, slab.plane, width, scratch);
+  return true;
 }
 
 void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
@@ -133,15 +154,17 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   slab.plane.height = slab.plane.low = 0.0;
   slab.members.assign(1, slab.seed);
   slab.depths.assign(1, 0.0f);
-  const bool needs_few = is_convex_ && space_.table().padded_count() * complex_.rank > kFewProducts;
-  if (needs_few) {
+  bool is_measured = false;
+  if (is_convex_ && space_.table().padded_count() * complex_.rank > kFewProducts) {
     flood_from_own_plane(slab, width, scratch);
   } else if (is_convex_) {
     measure(slab.plane, scratch);
     flood_measured(slab.seed, slab.plane, width, scratch);
+    is_measured = true;
   } else {
     if (!may_extend(slab.seed, slab.plane.normal.data(), width)) return;
-    flood_from_fitted_plane(slab, width, effort, scratch);
+    is_measured = !(space_.is_large() && flood_from_supporting_plane(slab, width, scratch));
+    if (is_measured) flood_from_fitted_plane(slab, width, effort, scratch);
   }
   if (scratch.grown.size() > 1) {
     slab.members.swap(scratch.grown);
@@ -150,7 +173,7 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
     slab.plane.height = 0.0;
   }
   if (slab.members.size() < (effort.refits <= 1 ? kWorthTurning : 2)) return;
-  if (needs_few) measure(slab.plane, scratch);
+  if (!is_measured) measure(slab.plane, scratch);
   for (unsigned refit = 0; refit < effort.refits; ++refit) {
     const std::span<const std::uint32_t> vertices = vertices_of(slab.members, scratch);
     FittedPlane turned = slab.plane;

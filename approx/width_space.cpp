@@ -26,6 +26,14 @@ WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, co
     }
   }
   table_ = SupportTable(rank, rows_);
+  constexpr std::size_t kManyProducts = 1 << 14;  // of one direction
+  if (rows_.size() >= kManyProducts) tree_.emplace(rank, rows_);
+}
+
+double WidthSpace::height_of(std::span<const double> normal, double attained) const {
+  FurthestPoint furthest{attained};
+  find_furthest(*tree_, normal, {&furthest, 1});
+  return furthest.dot;
 }
 
 void WidthSpace::normal_of(std::span<const double> plane, double* normal) const {

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/ids.h"
+#include "core/point_tree.h"
 #include "core/support.h"
 
 namespace ndhull {
@@ -30,6 +32,13 @@ class WidthSpace {
   /// Of a vertex or other point that was given.
   std::uint32_t row_of(PointId point) const { return row_of_point_[point.value]; }
 
+  /// So many points that products of a direction with all of them are to be avoided.
+  bool is_large() const { return tree_.has_value(); }
+  /// The largest product of a direction with any point, where one that is attained is known: the same number,
+  /// digit for digit, as that of the table. Precondition: is_large(). Cost  some 1 to 3 us
+  /// (core/point_tree.h).
+  double height_of(std::span<const double> normal, double attained) const;
+
   /// The unit normal of a plane of the frame.
   void normal_of(std::span<const double> plane, double* normal) const;
   /// The plane of the frame with this unit normal at `height` from the centre.
@@ -44,6 +53,7 @@ class WidthSpace {
   std::vector<std::uint32_t> row_of_point_;
   std::vector<double> rows_;
   SupportTable table_;
+  std::optional<PointTree> tree_;
 };
 
 }  // namespace ndhull

@@ -173,9 +173,12 @@ void find_furthest_of(const PointTree& tree, std::span<const double> normals,
 
 void find_furthest_any(const PointTree& tree, std::span<const double> normals,
                        std::span<FurthestPoint> furthest) {
-  if (tree.dimension() > kMaxRank) return find_furthest_of<0>(tree, normals, furthest);
-  call_with_dimension<1, kMaxRank>(tree.dimension(),
-                                   [&](auto d) { find_furthest_of<d>(tree, normals, furthest); });
+  // Loops of known length pay most where they are short, and each takes a second to compile.
+  constexpr std::size_t kFirst = 4, kLast = 9;
+  if (tree.dimension() < kFirst || tree.dimension() > kLast)
+    return find_furthest_of<0>(tree, normals, furthest);
+  call_with_dimension<kFirst, kLast>(tree.dimension(),
+                                     [&](auto d) { find_furthest_of<d>(tree, normals, furthest); });
 }
 
 }  // namespace HWY_NAMESPACE
