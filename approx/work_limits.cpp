@@ -100,7 +100,9 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
 
 bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
   if (limits_.max_seconds <= 0.0) return false;
-  const double left = seconds_left();
+  // Other work on the machine and what is not foreseen one by one: better too early than too late.
+  constexpr double kReserve = 0.05;
+  const double left = seconds_left() - kReserve * limits_.max_seconds;
   return left <= 0.0 || finish_seconds(work, ball, points) >= left;
 }
 

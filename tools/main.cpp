@@ -104,5 +104,7 @@ int run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   std::signal(SIGABRT, end_after_abort);
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may not grow is an error of the write, said like that of a full disk
   return run({argv + 1, argv + argc});
 }
