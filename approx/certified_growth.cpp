@@ -80,7 +80,8 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
   // Once a point was shifted simplices will be merged, which takes memory.
   work_.options.most_table_rows = limits_.most_rows(work_, frame_.dimension, point_bytes());
-  const std::uint64_t to_prove = points_.rows - std::min<std::uint64_t>(points_.rows, proven_count_ + rows);
+  const std::uint64_t to_prove =
+      points_.rows - std::min<std::uint64_t>(points_.rows, proven_count_ + work_.counters.insertions);
   return limits_.is_time_up(work_, ball_, to_prove) ? GrowthStop::kTimeLimit : GrowthStop::kNoOutsidePoints;
 }
 
