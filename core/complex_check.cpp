@@ -35,7 +35,6 @@ class Checker {
     for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
       if (complex_.state[row] == SimplexState::kFree) continue;
       ++result_.simplices;
-      if (complex_.state[row] != SimplexState::kLive) report("is left marked by an insertion", row, 0);
       check_vertices(row);
       check_neighbours(row);
     }

@@ -82,9 +82,33 @@ std::size_t Grower<D>::first_sibling(std::size_t index) const {
   return index;
 }
 
+// Memory for rows never used, some megabytes ahead. A new huge page takes the system a millisecond and more,
+// for which all threads would wait, one page at a time.
+template <std::size_t D>
+void Grower<D>::touch_new_rows() {
+  const std::size_t reused = std::min(work_.free_count, horizon_count_);
+  const std::size_t needed = work_.complex.row_count + horizon_count_ - reused;
+  if (!team_ || needed <= touched_rows_) return;
+  constexpr std::size_t kBytesAhead = std::size_t{1} << 22, kHugePage = std::size_t{1} << 21, kPage = 4096;
+  constexpr std::size_t kRowBytes = D * sizeof(double);  // of planes, and of the topology
+  const std::size_t first = std::max(touched_rows_, work_.complex.row_count);
+  const std::size_t last = std::min(needed + kBytesAhead / kRowBytes, work_.complex.state.capacity());
+  for (void* const table : {static_cast<void*>(planes_), static_cast<void*>(topology_)}) {
+    char* const unused = static_cast<char*>(table) + first * kRowBytes;
+    const std::size_t before = reinterpret_cast<std::uintptr_t>(unused) % kHugePage;  // in the same page
+    const auto touch = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t at = std::max(begin, before); at < end; at += kPage) unused[at - before] = 0;
+    };
+    team_->for_each_block(before + (last - first) * kRowBytes, kHugePage, touch);
+  }
+  touched_rows_ = last;
+}
+
 template <std::size_t D>
 void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
-  for_ridges([&](std::size_t begin, std::size_t end) { make_ridges(apex_id, shift, begin, end); });
+  touch_new_rows();
+  for_many(horizon_count_,
+           [&](std::size_t begin, std::size_t end) { make_ridges(apex_id, shift, begin, end); });
   new_count_ = horizon_count_;
   const std::size_t reused = std::min(work_.free_count, new_count_);
   work_.free_count -= reused;
@@ -98,7 +122,6 @@ void Grower<D>::undo_cone() {
     state_[new_rows_[i]] = SimplexState::kFree;
     work_.free_rows[work_.free_count++] = new_rows_[i];
   }
-  forget_visible();
 }
 
 // Where each ridge is among those of its hidden simplex, then the entries: a hidden simplex may have several
@@ -119,7 +142,6 @@ void Grower<D>::join_hidden(std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const HorizonRidge& ridge = horizon_[i];
     neighbours(ridge.hidden)[ridge.hidden_slot] = new_rows_[i];
-    store_shared(state_[ridge.hidden], SimplexState::kLive);
   }
 }
 
@@ -129,9 +151,9 @@ template <std::size_t D>
 void Grower<D>::commit() {
   const auto find = [&](std::size_t begin, std::size_t end) { find_hidden_slots(begin, end); };
   const auto join = [&](std::size_t begin, std::size_t end) { join_hidden(begin, end); };
-  if (is_parallel_ && new_count_ >= kManyRidges) {
-    for_each_block(new_count_, kRidgesInBlock, find);
-    for_each_block(new_count_, kRidgesInBlock, join);
+  if (team_ && new_count_ >= kManyRidges) {
+    for_many(new_count_, find);
+    for_many(new_count_, join);
     return;
   }
   constexpr std::size_t kInCache = 16;
@@ -168,7 +190,7 @@ bool Grower<D>::cone_is_sphere() {
       subridge_keys_[at] = key;
     }
   }
-  // Connected: walk from the first new simplex. kVisible marks those reached; new ones are kLive before.
+  // Connected: walk from the first new simplex. kLive marks those reached.
   std::vector<std::uint32_t> reached{new_rows_[0]};
   for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kFree;
   state_[reached[0]] = SimplexState::kLive;

@@ -21,15 +21,16 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/blocks.h"
 #include "core/error.h"
 #include "core/growth.h"
+#include "core/team.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -84,19 +85,27 @@ struct HorizonRidge {
   std::uint32_t hidden;         // simplex on the other side
 };
 
-/// A simplex that one block of the visible set's search was the first to meet, as far as the block knew.
-struct FoundVisible {
-  std::uint32_t row;
-  std::uint32_t key;  // where it was met: the least key of all is where a search by one thread meets it
-  double gauge;
+/// Where a search appends what it finds.
+struct SearchResult {
+  std::uint32_t* visible;
+  double* gauge;  // of the visible ones
+  HorizonRidge* horizon;
+  std::size_t visible_count, horizon_count;
+  double lowest, highest;  // smallest gauge tested above the threshold, largest not above it
 };
 
-/// What one block of the search found.
-struct VisibleBlock {
-  std::vector<FoundVisible> found;
-  std::vector<HorizonRidge> horizon;
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+/// One of the parts of a wave that several threads search from.
+struct SearchShare {
+  HugeArray<std::uint8_t> marks;  // the first share has those of the search by one thread
+  HugeArray<std::uint32_t> visible;
+  HugeArray<double> gauge;
+  HugeArray<HorizonRidge> horizon;
+  SearchResult result;
+  std::size_t kept = 0;  // of the visible ones: not found by a lower share
 };
+
+template <std::size_t D>
+struct FirstMet;
 
 /// Where an outside point goes; row kNoRow: it is inside.
 struct NewPlace {
@@ -105,16 +114,6 @@ struct NewPlace {
 };
 
 struct Turns;
-
-/// Entries that two threads may set to the same value at the same time. No cost: plain moves.
-template <class T>
-HWY_INLINE T load_shared(T& entry) {
-  return std::atomic_ref<T>(entry).load(std::memory_order_relaxed);
-}
-template <class T>
-HWY_INLINE void store_shared(T& entry, T value) {
-  std::atomic_ref<T>(entry).store(value, std::memory_order_relaxed);
-}
 
 template <std::size_t D>
 class Grower {
@@ -130,18 +129,17 @@ class Grower {
         visible_gauge_(work.complex.state.capacity()),
         horizon_(work.complex.state.capacity() * D),
         new_rows_(work.complex.state.capacity()),
-        is_parallel_(has_more_threads()) {
-    if (is_parallel_) claims_ = HugeArray<std::uint32_t>(work.complex.state.capacity());
-  }
+        threads_(team_threads(kMostThreads)),
+        marks_(work.complex.state.capacity()) {}
 
   GrowthStop run();
 
  private:
-  static constexpr std::size_t kBatch = 8;  // visible simplices whose neighbours are fetched together
-  // From how many elements on a loop is shared, and in blocks of how many: a block is worth some 10 us, the
-  // start of a shared loop costs less. Which loops are shared changes no result.
-  static constexpr std::size_t kManyVisible = 256, kVisibleInBlock = 64;
-  static constexpr std::size_t kManyRidges = 1024, kRidgesInBlock = 256;
+  // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
+  // result.
+  static constexpr std::size_t kManyVisible = 192, kManyRidges = 768, kRidgesInBlock = 256;
+  // More would spend their time on marking what the others found.
+  static constexpr std::size_t kMostThreads = 8;
 
   double* plane(std::uint32_t row) { return planes_ + std::size_t{row} * D; }
   std::uint32_t* vertices(std::uint32_t row) { return topology_ + std::size_t{row} * 2 * D; }
@@ -149,15 +147,22 @@ class Grower {
   const double* point(std::uint32_t id) const { return points_ + std::size_t{id} * D; }
 
   void find_visible(const double* apex, std::uint32_t seed, double threshold);
-  void fetch_neighbours(std::size_t begin, std::size_t end);
-  void search_block(const double* apex, double threshold, std::size_t chunk, std::size_t begin,
-                    std::size_t end, VisibleBlock& block);
-  void search_chunk(const double* apex, double threshold, std::size_t begin, std::size_t end);
-  std::size_t search_batches(const double* apex, double threshold, std::size_t begin);
-  bool claim(std::uint32_t row, std::uint32_t key);
-  void forget_visible();
+  void next_marks();
+  std::uint8_t visible_mark() const { return static_cast<std::uint8_t>(hidden_mark_ + 1); }
+  std::uint8_t duplicate_mark() const { return static_cast<std::uint8_t>(hidden_mark_ + 2); }
+  std::uint8_t* share_marks(std::size_t s) { return s == 0 ? marks_.data() : shares_[s].marks.data(); }
+  void make_shares();
+  void mark_found_alone(std::uint8_t* marks);
+  void search_wave(const double* apex, double threshold, std::size_t begin, std::size_t end);
+  std::size_t search(const double* apex, double threshold, std::uint8_t* marks, std::size_t begin,
+                     std::size_t end, SearchResult& result);
+  void list_first_met(std::uint8_t* marks, std::size_t begin, std::size_t end, FirstMet<D>& met);
+  void test_first_met(const double* apex, double threshold, std::uint8_t* marks, const FirstMet<D>& met,
+                      SearchResult& result);
+  void collect_horizon(const std::uint8_t* marks, std::size_t begin, std::size_t end, SearchResult& result);
   void make_cone(std::uint32_t apex, double shift);
   void make_ridges(std::uint32_t apex, double shift, std::size_t begin, std::size_t end);
+  void touch_new_rows();
   void join_siblings(std::size_t index);
   std::size_t first_sibling(std::size_t index) const;
   void match_cone();
@@ -169,16 +174,19 @@ class Grower {
   void find_hidden_slots(std::size_t begin, std::size_t end);
   void join_hidden(std::size_t begin, std::size_t end);
   void partition(std::uint32_t apex);
+  void free_visible(std::size_t begin, std::size_t end, std::vector<std::uint32_t>& with_points);
   void place_moved();
-  /// Runs work(begin, end) on all ridges of the horizon.
+  /// Runs work(begin, end) on all of [0, count), shared when they are many.
   template <class Work>
-  void for_ridges(const Work& work) {
-    if (is_parallel_ && horizon_count_ >= kManyRidges) {
-      for_each_block(horizon_count_, kRidgesInBlock, work);
+  void for_many(std::size_t count, const Work& work) {
+    if (team_ && count >= kManyRidges) {
+      const std::size_t shares = 4 * team_->threads();
+      team_->for_each_block(count, std::max(kRidgesInBlock, (count + shares - 1) / shares), work);
     } else {
-      work(std::size_t{0}, horizon_count_);
+      work(std::size_t{0}, count);
     }
   }
+  void call_team();
   enum class Outcome { kAdded, kRejected, kNoRoom, kPastLimit };
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
@@ -199,10 +207,17 @@ class Grower {
   HugeArray<double> visible_gauge_;
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
-  bool is_parallel_;
-  HugeArray<std::uint32_t> claims_;           // per row: least key that it was met at in this chunk; 0: none
-  std::vector<VisibleBlock> visible_blocks_;  // of one chunk
-  std::vector<std::uint32_t> moved_;          // points whose simplices are gone
+  std::size_t threads_;
+  std::unique_ptr<Team> team_;  // from the first large insertion on, where there are threads
+  std::vector<SearchShare> shares_;
+  std::size_t touched_rows_ = 0;                         // rows that have memory, as far as is known
+  std::size_t shared_visible_ = 0, shared_horizon_ = 0;  // found when all shares last had the same marks
+  // Per row: hidden_mark_ when this search has met it and it is hidden, one more when it is visible, less
+  // when it was not met.
+  HugeArray<std::uint8_t> marks_;
+  std::uint8_t hidden_mark_ = 1;
+  std::vector<std::vector<std::uint32_t>> emptied_;  // freed simplices that had points outside, a list a part
+  std::vector<std::uint32_t> moved_;                 // points whose simplices are gone
   std::vector<NewPlace> new_places_;
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
@@ -237,12 +252,12 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     if (!room_for_cone()) return Outcome::kNoRoom;
     if (work_.options.max_rows != 0 &&
         live_rows() + horizon_count_ - visible_count_ > work_.options.max_rows) {
-      forget_visible();
       return Outcome::kPastLimit;
     }
     // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
     const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
     if (certain) shift = 0.0;
+    call_team();
     make_cone(apex_id, shift);
     clock.lap(work_.counters.seconds_cone);
     match_cone();
@@ -265,14 +280,20 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
   return Outcome::kRejected;
 }
 
+/// Starts the other threads at the first insertion that they can help with.
+template <std::size_t D>
+void Grower<D>::call_team() {
+  if (team_ || threads_ == 1 || horizon_count_ < kManyRidges) return;
+  team_ = std::make_unique<Team>(threads_);
+  make_shares();
+}
+
 template <std::size_t D>
 bool Grower<D>::room_for_cone() {
   const std::size_t needed = horizon_count_ > work_.free_count ? horizon_count_ - work_.free_count : 0;
   std::size_t most = work_.complex.state.capacity();
   if (work_.options.most_table_rows != 0) most = std::min<std::size_t>(most, work_.options.most_table_rows);
-  if (work_.complex.row_count + needed <= most) return true;
-  forget_visible();
-  return false;
+  return work_.complex.row_count + needed <= most;
 }
 
 template <std::size_t D>

@@ -91,13 +91,6 @@ HWY_INLINE std::size_t Grower<D>::begin_turns(std::size_t base, std::size_t inde
   return count;
 }
 
-template <std::size_t D>
-HWY_INLINE void fetch_row(const std::uint32_t* topology, std::uint32_t row) {
-  const std::uint32_t* entries = topology + std::size_t{row} * 2 * D;
-  __builtin_prefetch(entries);
-  if (D > 8 || (D & (D - 1)) != 0) __builtin_prefetch(entries + 2 * D - 1);
-}
-
 /// One step of each turn; what ends is entered on both sides. Returns how many go on.
 template <std::size_t D>
 HWY_INLINE std::size_t Grower<D>::step_turns(const std::uint32_t* HWY_RESTRICT rows, Turns& turns,
@@ -144,7 +137,7 @@ void Grower<D>::match_ridges(std::size_t begin, std::size_t end) {
 
 template <std::size_t D>
 void Grower<D>::match_cone() {
-  for_ridges([&](std::size_t begin, std::size_t end) { match_ridges(begin, end); });
+  for_many(horizon_count_, [&](std::size_t begin, std::size_t end) { match_ridges(begin, end); });
 }
 
 }  // namespace HWY_NAMESPACE

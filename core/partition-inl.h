@@ -49,24 +49,49 @@ void Grower<D>::drop_first(std::uint32_t row) {
   }
 }
 
+// Frees the visible simplices begin .. end and lists those with points in their outside sets.
+template <std::size_t D>
+void Grower<D>::free_visible(std::size_t begin, std::size_t end, std::vector<std::uint32_t>& with_points) {
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i + kAhead < end) __builtin_prefetch(head_ + visible_[i + kAhead]);
+    const std::uint32_t row = visible_[i];
+    state_[row] = SimplexState::kFree;
+    work_.free_rows[work_.free_count + i] = row;
+    if (head_[row] != 0) with_points.push_back(row);
+  }
+}
+
 // The points of the simplices that are gone, a chunk at a time.
 template <std::size_t D>
 void Grower<D>::partition(std::uint32_t apex) {
   constexpr std::size_t kChunk = std::size_t{1} << 16;  // bounds the memory that a first insertion needs
+  const std::size_t parts = team_ && visible_count_ >= kManyRidges ? team_->threads() : 1;
+  const std::size_t size = (visible_count_ + parts - 1) / parts;
+  if (emptied_.size() < parts) emptied_.resize(parts);
+  for (std::vector<std::uint32_t>& rows : emptied_) rows.clear();
+  const auto free_part = [&](std::size_t begin, std::size_t end) {
+    free_visible(begin, end, emptied_[begin / size]);
+  };
+  if (parts > 1) {
+    team_->for_each_block(visible_count_, size, free_part);
+  } else {
+    free_part(0, visible_count_);
+  }
+  work_.free_count += visible_count_;
   moved_.clear();
-  for (std::size_t i = 0; i < visible_count_; ++i) {
-    const std::uint32_t row = visible_[i];
-    std::uint32_t next = head_[row];
-    head_[row] = 0;
-    state_[row] = SimplexState::kFree;
-    work_.free_rows[work_.free_count++] = row;
-    while (next != 0) {
-      const std::uint32_t id = next - 1;
-      next = work_.next_outside[id];
-      --work_.points_outside;
-      if (id == apex) continue;
-      moved_.push_back(id);
-      if (moved_.size() == kChunk) place_moved();
+  for (const std::vector<std::uint32_t>& rows : emptied_) {
+    for (const std::uint32_t row : rows) {
+      std::uint32_t next = head_[row];
+      head_[row] = 0;
+      while (next != 0) {
+        const std::uint32_t id = next - 1;
+        next = work_.next_outside[id];
+        --work_.points_outside;
+        if (id == apex) continue;
+        moved_.push_back(id);
+        if (moved_.size() == kChunk) place_moved();
+      }
     }
   }
   place_moved();
@@ -78,7 +103,7 @@ void Grower<D>::place_moved() {
   constexpr std::size_t kPointsInBlock = 64;
   const double least = least_height(work_);
   new_places_.resize(moved_.size());
-  for_each_block(moved_.size(), kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+  const auto place = [&](std::size_t begin, std::size_t end) {
     std::uint32_t start = new_rows_[0];
     for (std::size_t i = begin; i < end; ++i) {
       double gauge = 0.0;
@@ -88,7 +113,12 @@ void Grower<D>::place_moved() {
       const double height = height_above(work_, found, gauge);
       if (height > least) new_places_[i] = {found, height};
     }
-  });
+  };
+  if (team_ && moved_.size() > kPointsInBlock) {
+    team_->for_each_block(moved_.size(), kPointsInBlock, place);
+  } else {
+    for_each_block(moved_.size(), kPointsInBlock, place);
+  }
   for (std::size_t i = 0; i < moved_.size(); ++i)
     if (new_places_[i].row != kNoRow)
       push_outside(work_, moved_[i], new_places_[i].row, new_places_[i].height);

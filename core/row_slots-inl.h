@@ -49,6 +49,14 @@ HWY_INLINE std::uint32_t slot_of(const std::uint32_t* row, std::uint32_t value) 
       __builtin_ctz(slots_where<D>(row, [&](auto ids) HWY_ATTR { return hn::Eq(ids, wanted); })));
 }
 
+/// Fetches a row of the topology.
+template <std::size_t D>
+HWY_INLINE void fetch_row(const std::uint32_t* topology, std::uint32_t row) {
+  const std::uint32_t* entries = topology + std::size_t{row} * 2 * D;
+  __builtin_prefetch(entries);
+  if (D > 8 || (D & (D - 1)) != 0) __builtin_prefetch(entries + 2 * D - 1);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace ndhull
 HWY_AFTER_NAMESPACE();

@@ -19,11 +19,8 @@ namespace ndhull {
 
 /// What a row of the tables holds just now.
 enum class SimplexState : std::uint8_t {
-  kFree = 0,     ///< not in use
-  kLive = 1,     ///< part of the hull
-  kVisible = 2,  ///< during one insertion: the apex is above it
-  kHidden = 3,   ///< during one insertion: tested, and the apex is not above it
-  kFound = 4,    ///< during one insertion: visible, not in the list of visible ones yet
+  kFree = 0,  ///< not in use
+  kLive = 1,  ///< part of the hull
 };
 
 /// Simplicial facets as parallel rows: row s of each table is SimplexId s.

@@ -1,4 +1,9 @@
 // The visible set of an apex and its horizon. Included once per target by growth_kernels.cpp.
+//
+// Breadth first, in batches that go through three stages: list the neighbours met for the first time and
+// fetch their planes; test them, the batch before being tested while those planes are on their way; collect
+// the horizon. Whether a neighbour is new, visible or hidden cannot be predicted, so no stage has a branch on
+// it.
 
 #if defined(NDHULL_VISIBLE_SET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NDHULL_VISIBLE_SET_INL_H_
@@ -8,176 +13,175 @@
 #endif
 
 #include "core/grower-inl.h"
+#include "core/row_slots-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-/// Fetches the planes around the visible simplices begin .. end.
+/// Neighbours of one batch that were met for the first time.
 template <std::size_t D>
-HWY_INLINE void Grower<D>::fetch_neighbours(std::size_t begin, std::size_t end) {
+struct FirstMet {
+  // Visible simplices in a batch. Measured: more planes at once than caches can be waiting for hold up
+  // everything else.
+  static constexpr std::size_t kBatch = D <= 6 ? 16 : 4;
+  std::uint32_t rows[kBatch * D];
+  std::size_t count = 0;
+};
+
+/// Lists the neighbours of visible simplices begin .. end that were not met before, marks them as hidden
+/// until they are tested, and fetches their planes.
+template <std::size_t D>
+HWY_INLINE void Grower<D>::list_first_met(std::uint8_t* marks, std::size_t begin, std::size_t end,
+                                          FirstMet<D>& met) {
+  const std::uint8_t hidden = hidden_mark_;
+  const std::uint32_t* const topology = topology_;
+  const std::uint32_t* const visible = visible_.data();
+  std::size_t count = 0;
+  if (D >= 8) {  // where marks are many
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t* around = topology + std::size_t{visible[i]} * 2 * D + D;
+      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(marks + around[k]);
+    }
+  }
   for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t* around = neighbours(visible_[i]);
+    const std::uint32_t* around = topology + std::size_t{visible[i]} * 2 * D + D;
     for (std::size_t k = 0; k < D; ++k) {
-      const char* record = reinterpret_cast<const char*>(plane(around[k]));
-      __builtin_prefetch(record);
-      if (D > 8) __builtin_prefetch(record + 64);
-      __builtin_prefetch(state_ + around[k]);
+      const std::uint32_t neighbour = around[k];
+      const std::uint8_t mark = marks[neighbour];
+      met.rows[count] = neighbour;
+      count += mark < hidden ? 1 : 0;
+      marks[neighbour] = mark < hidden ? hidden : mark;
     }
   }
-}
-
-/// Lowers the claim on a row to `key`; false when it was as low already.
-template <std::size_t D>
-bool Grower<D>::claim(std::uint32_t row, std::uint32_t key) {
-  const std::atomic_ref<std::uint32_t> claim(claims_[row]);
-  std::uint32_t lowest = claim.load(std::memory_order_relaxed);
-  while (lowest == 0 || key < lowest) {
-    if (claim.compare_exchange_weak(lowest, key, std::memory_order_relaxed)) return true;
+  met.count = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* record = planes_ + std::size_t{met.rows[i]} * D;
+    __builtin_prefetch(record);
+    if (D > 8 || (D & (D - 1)) != 0) __builtin_prefetch(record + D - 1);
   }
-  return false;
 }
 
-// A block of visible simplices' neighbours. Two threads that test the same simplex find the same; the one
-// that meets it first in the order of one thread's search has the lowest key and lists it.
+/// Tests what was listed; the visible ones are appended in the order of the list.
 template <std::size_t D>
-void Grower<D>::search_block(const double* apex, double threshold, std::size_t chunk, std::size_t begin,
-                             std::size_t end, VisibleBlock& block) {
-  block.found.clear();
-  block.horizon.clear();
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (std::size_t batch = begin; batch < end; batch += kBatch) {
-    const std::size_t batch_end = std::min(batch + kBatch, end);
-    fetch_neighbours(batch, batch_end);
-    for (std::size_t i = batch; i < batch_end; ++i) {
-      const std::uint32_t* around = neighbours(visible_[i]);
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t neighbour = around[k];
-        const auto key = static_cast<std::uint32_t>((i - chunk) * D + k + 1);
-        SimplexState now = load_shared(state_[neighbour]);
-        if (now == SimplexState::kLive) {
-          const double gauge = gauge_above<D>(plane(neighbour), apex);
-          if (gauge > threshold) {
-            lowest = gauge < lowest ? gauge : lowest;
-            store_shared(state_[neighbour], SimplexState::kFound);
-            if (claim(neighbour, key)) block.found.push_back({neighbour, key, gauge});
-            continue;
-          }
-          highest = gauge > highest ? gauge : highest;
-          store_shared(state_[neighbour], SimplexState::kHidden);
-          now = SimplexState::kHidden;
-        }
-        if (now == SimplexState::kHidden) {
-          block.horizon.push_back(
-              {static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(k), 0, neighbour});
-        } else if (now == SimplexState::kFound && claim(neighbour, key)) {
-          block.found.push_back({neighbour, key, gauge_above<D>(plane(neighbour), apex)});
-        }
-      }
+HWY_INLINE void Grower<D>::test_first_met(const double* apex, double threshold, std::uint8_t* marks,
+                                          const FirstMet<D>& met, SearchResult& result) {
+  const std::uint8_t hidden = hidden_mark_;
+  const double* const planes = planes_;
+  std::uint32_t* const visible = result.visible;
+  double* const gauges = result.gauge;
+  std::size_t count = result.visible_count;
+  double lowest = result.lowest, highest = result.highest;
+  for (std::size_t i = 0; i < met.count; ++i) {
+    const std::uint32_t row = met.rows[i];
+    const double gauge = gauge_above<D>(planes + std::size_t{row} * D, apex);
+    const bool is_visible = gauge > threshold;
+    visible[count] = row;
+    gauges[count] = gauge;
+    count += is_visible ? 1 : 0;
+    marks[row] = is_visible ? visible_mark() : hidden;
+    const double if_visible = is_visible ? gauge : HUGE_VAL, if_hidden = is_visible ? -HUGE_VAL : gauge;
+    lowest = if_visible < lowest ? if_visible : lowest;
+    highest = if_hidden > highest ? if_hidden : highest;
+  }
+  for (std::size_t i = result.visible_count; i < count; ++i) fetch_row<D>(topology_, visible[i]);
+  result.visible_count = count;
+  result.lowest = lowest;
+  result.highest = highest;
+}
+
+/// Appends the ridges of visible simplices begin .. end whose other side is hidden.
+template <std::size_t D>
+HWY_INLINE void Grower<D>::collect_horizon(const std::uint8_t* marks, std::size_t begin, std::size_t end,
+                                           SearchResult& result) {
+  const std::uint8_t hidden = hidden_mark_;
+  const std::uint32_t* const topology = topology_;
+  const std::uint32_t* const visible = visible_.data();
+  HorizonRidge* const horizon = result.horizon;
+  std::size_t count = result.horizon_count;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t* around = topology + std::size_t{visible[i]} * 2 * D + D;
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::uint32_t neighbour = around[k];
+      horizon[count] = {static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(k), 0, neighbour};
+      count += marks[neighbour] == hidden ? 1 : 0;
     }
   }
-  block.lowest = lowest;
-  block.highest = highest;
+  result.horizon_count = count;
 }
 
-// Searches from the visible simplices begin .. end on several threads. What they find is listed in the order
-// in which one thread would: by key.
+/// Searches from the visible simplices begin .. end, or, when what is found is appended to the list itself,
+/// until there are no more or so many that threads may share them. Returns where it ended.
 template <std::size_t D>
-void Grower<D>::search_chunk(const double* apex, double threshold, std::size_t begin, std::size_t end) {
-  const std::size_t blocks = (end - begin + kVisibleInBlock - 1) / kVisibleInBlock;
-  if (visible_blocks_.size() < blocks) visible_blocks_.resize(blocks);
-  for_each_block(end - begin, kVisibleInBlock, [&](std::size_t from, std::size_t to) {
-    search_block(apex, threshold, begin, begin + from, begin + to, visible_blocks_[from / kVisibleInBlock]);
-  });
-  for (std::size_t i = 0; i < blocks; ++i) {
-    const VisibleBlock& block = visible_blocks_[i];
-    lowest_visible_ = std::min(lowest_visible_, block.lowest);
-    highest_hidden_ = std::max(highest_hidden_, block.highest);
-    for (const FoundVisible& found : block.found) {
-      if (claims_[found.row] != found.key) continue;
-      claims_[found.row] = 0;
-      state_[found.row] = SimplexState::kVisible;
-      visible_[visible_count_] = found.row;
-      visible_gauge_[visible_count_] = found.gauge;
-      ++visible_count_;
-    }
-    std::copy(block.horizon.begin(), block.horizon.end(), horizon_.data() + horizon_count_);
-    horizon_count_ += block.horizon.size();
+std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t* marks, std::size_t begin,
+                              std::size_t end, SearchResult& result) {
+  FirstMet<D> lists[2];
+  std::size_t tested = begin, listed = begin, turn = 0;
+  const bool is_open = result.visible == visible_.data();
+  const std::size_t most = team_ ? kManyVisible : visible_.capacity();
+  for (;;) {
+    std::size_t limit = end;
+    if (is_open) limit = result.visible_count - listed < most ? result.visible_count : listed;
+    if (tested == limit) return tested;
+    const std::size_t list_end = std::min(listed + FirstMet<D>::kBatch, limit);
+    list_first_met(marks, listed, list_end, lists[turn]);
+    turn ^= 1;
+    test_first_met(apex, threshold, marks, lists[turn], result);
+    lists[turn].count = 0;
+    collect_horizon(marks, tested, listed, result);
+    tested = listed;
+    listed = list_end;
   }
 }
 
-// Breadth first from `seed`. Neighbours are tested in batches: the fetches of a batch overlap, which is
-// where the time of an insertion went before (memory latency).
 template <std::size_t D>
 void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double threshold) {
   alignas(64) double apex[D];
   for (std::size_t k = 0; k < D; ++k) apex[k] = apex_in[k];
+  next_marks();
+  const double gauge = gauge_above<D>(plane(seed), apex);
+  marks_[seed] = visible_mark();
+  visible_[0] = seed;
+  visible_gauge_[0] = gauge;
   visible_count_ = 1;
   horizon_count_ = 0;
-  lowest_visible_ = gauge_above<D>(plane(seed), apex);
+  lowest_visible_ = gauge;
   highest_hidden_ = -HUGE_VAL;
-  state_[seed] = SimplexState::kVisible;
-  visible_[0] = seed;
-  visible_gauge_[0] = lowest_visible_;
+  shared_visible_ = shared_horizon_ = 0;
   for (std::size_t begin = 0; begin < visible_count_;) {
-    const std::size_t end = visible_count_;
-    if (is_parallel_ && end - begin >= kManyVisible) {
-      search_chunk(apex, threshold, begin, end);
+    if (team_ && visible_count_ - begin >= kManyVisible) {
+      const std::size_t end = visible_count_;
+      search_wave(apex, threshold, begin, end);
       begin = end;
     } else {
-      begin = search_batches(apex, threshold, begin);
+      SearchResult result{visible_.data(), visible_gauge_.data(), horizon_.data(), visible_count_,
+                          horizon_count_,  lowest_visible_,       highest_hidden_};
+      begin = search(apex, threshold, marks_.data(), begin, 0, result);
+      visible_count_ = result.visible_count;
+      horizon_count_ = result.horizon_count;
+      lowest_visible_ = result.lowest;
+      highest_hidden_ = result.highest;
     }
   }
 }
 
-/// Searches from the visible simplices begin .. on until there are no more, or so many that threads may share
-/// them; returns where it ended.
+/// Makes marks of earlier searches old. When marks run out all are cleared; after a small search in a large
+/// complex its own marks are, so that this costs little beside the searches.
 template <std::size_t D>
-std::size_t Grower<D>::search_batches(const double* apex, double threshold, std::size_t begin) {
-  double lowest = lowest_visible_, highest = highest_hidden_;
-  std::size_t visible_count = visible_count_, horizon_count = horizon_count_;
-  const std::size_t most = is_parallel_ ? kManyVisible : work_.complex.state.capacity();
-  for (std::size_t end = 0; begin < visible_count && visible_count - begin < most; begin = end) {
-    end = begin + kBatch < visible_count ? begin + kBatch : visible_count;
-    fetch_neighbours(begin, end);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t* around = neighbours(visible_[i]);
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t neighbour = around[k];
-        SimplexState now = state_[neighbour];
-        if (now == SimplexState::kLive) {
-          const double gauge = gauge_above<D>(plane(neighbour), apex);
-          if (gauge > threshold) {
-            lowest = gauge < lowest ? gauge : lowest;
-            state_[neighbour] = SimplexState::kVisible;
-            visible_[visible_count] = neighbour;
-            visible_gauge_[visible_count] = gauge;
-            ++visible_count;
-            __builtin_prefetch(vertices(neighbour));
-            continue;
-          }
-          highest = gauge > highest ? gauge : highest;
-          state_[neighbour] = SimplexState::kHidden;
-          now = SimplexState::kHidden;
-        }
-        if (now == SimplexState::kHidden) {
-          horizon_[horizon_count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(k), 0,
-                                       neighbour};
-        }
-      }
-    }
+void Grower<D>::next_marks() {
+  constexpr unsigned kLastMark = 250, kMarksOfSearch = 3;
+  const std::size_t marked = visible_count_ + horizon_count_;
+  if (shared_visible_ == 0 && marked < work_.complex.row_count / 512) {
+    for (std::size_t i = 0; i < visible_count_; ++i) marks_[visible_[i]] = 0;
+    for (std::size_t i = 0; i < horizon_count_; ++i) marks_[horizon_[i].hidden] = 0;
+  } else if (hidden_mark_ + 2 * kMarksOfSearch > kLastMark) {
+    std::fill_n(marks_.data(), work_.complex.row_count, std::uint8_t{0});
+    for (std::size_t s = 1; s < shares_.size(); ++s)
+      std::fill_n(shares_[s].marks.data(), work_.complex.row_count, std::uint8_t{0});
+    hidden_mark_ = 1;
+  } else {
+    hidden_mark_ = static_cast<std::uint8_t>(hidden_mark_ + kMarksOfSearch);
   }
-  visible_count_ = visible_count;
-  horizon_count_ = horizon_count;
-  lowest_visible_ = lowest;
-  highest_hidden_ = highest;
-  return begin;
-}
-
-template <std::size_t D>
-void Grower<D>::forget_visible() {
-  for (std::size_t i = 0; i < visible_count_; ++i) state_[visible_[i]] = SimplexState::kLive;
-  for (std::size_t i = 0; i < horizon_count_; ++i) state_[horizon_[i].hidden] = SimplexState::kLive;
 }
 
 }  // namespace HWY_NAMESPACE
