@@ -34,8 +34,10 @@ constexpr double kGrowthShareAtMost = 0.75;
 constexpr std::uint64_t kManySimplices = 250'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
-/// As many points left out are all seen by the fits; of more, the furthest over each simplex.
-constexpr std::size_t kFewLeftOut = 4096;
+/// As many points left out are all seen by the fits; of more, the furthest over each simplex. For a target
+/// width all is best: what they do not see makes slabs too wide. A target number takes many more fits, and
+/// sees them in rounds.
+constexpr std::size_t kFewLeftOut = 1 << 17, kFewLeftOutForCount = 4096;
 /// Facets from which on neighbours are not tried again for what fits into one slab.
 constexpr std::size_t kFewFacets = 256;
 /// Rounds of smaller slabs and more growth before the best so far is taken.
@@ -143,8 +145,9 @@ void Approximation::make_space(bool with_left_out) {
     }
   }
   std::vector<Reach> furthest;
+  const std::size_t few = accuracy_.facets > 0 ? kFewLeftOutForCount : kFewLeftOut;
   if (with_left_out) {
-    const bool are_few = growth_.left_out().size() <= kFewLeftOut;
+    const bool are_few = growth_.left_out().size() <= few;
     std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
     for (const LocatedPoint& point : growth_.left_out()) {
       if (are_few) furthest.push_back({0.0, point.point});
@@ -162,7 +165,7 @@ void Approximation::make_space(bool with_left_out) {
     }
   }
   std::sort(furthest.begin(), furthest.end());
-  const std::size_t most = std::max(2 * vertices.size() + 1024, kFewLeftOut);
+  const std::size_t most = std::max(2 * vertices.size() + 1024, few);
   if (furthest.size() > most) furthest.resize(most);
   const auto take = [&](PointId id, std::vector<PointId>& list) {
     if (!is_taken[id.value]) list.push_back(id);

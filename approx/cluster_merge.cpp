@@ -86,7 +86,6 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
-    const auto point_count = static_cast<std::ptrdiff_t>(space_.table().count());
     for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
       facet_seen[id] = id;
@@ -99,8 +98,7 @@ class Merging {
       std::sort(cluster.vertices.begin(), cluster.vertices.end());
       std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
       cluster.plane = measure_plane(space_, covering_.planes[id].normal, cluster.vertices, work_);
-      const auto highest = std::max_element(work_.dots.begin(), work_.dots.begin() + point_count);
-      cluster.tops.assign(1, static_cast<std::uint32_t>(highest - work_.dots.begin()));
+      cluster.tops.assign(1, work_.highest);
       cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
     }
   }

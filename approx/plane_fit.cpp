@@ -44,14 +44,54 @@ void gather(const WidthSpace& space, std::span<const std::uint32_t> from, PlaneF
   table.assign(space.rank(), work.rows);
 }
 
+/// work.near: the points within a width below `start`, the highest if they are very many.
+void find_near(const WidthSpace& space, const FittedPlane& start, PlaneFitWork& work) {
+  work.near.clear();
+  work.above.clear();
+  if (space.is_large()) {
+    // Few of very many points are as high as the first shares of the width.
+    for (double share = 0.125; share <= 1.0 && work.above.size() < kManyNear; share *= 2.0) {
+      work.above.clear();
+      space.find_above(start.normal, start.height - share * start.width(), work.above);
+    }
+  } else {
+    space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
+    for (const std::uint32_t row : work.near) work.above.push_back({work.dots[row], row});
+    work.near.clear();
+  }
+  if (work.above.size() > kManyNear) {
+    const auto end = work.above.begin() + static_cast<std::ptrdiff_t>(kManyNear);
+    std::nth_element(work.above.begin(), end, work.above.end(),
+                     [](const FurthestPoint& a, const FurthestPoint& b) {
+                       return a.dot != b.dot ? a.dot > b.dot : a.row < b.row;
+                     });
+    work.above.erase(end, work.above.end());
+  }
+  for (const FurthestPoint& point : work.above) work.near.push_back(point.row);
+}
+
 }  // namespace
 
 FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
                           std::span<const std::uint32_t> vertices, PlaneFitWork& work) {
-  work.dots.resize(space.table().padded_count());
   ++work.evaluations;
-  FittedPlane plane{{normal.begin(), normal.end()}, 0.0, HUGE_VAL};
-  plane.height = work.dots[space.table().find(normal.data(), work.dots.data())];
+  FittedPlane plane{{normal.begin(), normal.end()}, -HUGE_VAL, HUGE_VAL};
+  if (space.is_large()) {
+    for (const std::uint32_t vertex : vertices) {
+      const double product = dot(space.rank(), normal.data(), space.row(vertex));
+      plane.low = std::min(plane.low, product);
+      if (product <= plane.height) continue;
+      plane.height = product;
+      work.highest = vertex;
+    }
+    const FurthestPoint furthest = space.furthest(normal, plane.height);
+    plane.height = furthest.dot;
+    if (furthest.row != FurthestPoint::kNoRow) work.highest = furthest.row;
+    return plane;
+  }
+  work.dots.resize(space.table().padded_count());
+  work.highest = space.table().find(normal.data(), work.dots.data());
+  plane.height = work.dots[work.highest];
   for (const std::uint32_t vertex : vertices) plane.low = std::min(plane.low, work.dots[vertex]);
   return plane;
 }
@@ -98,15 +138,7 @@ double turn_among(const WidthSpace& space, std::span<const double> normal,
 
 double turn_among_near(const WidthSpace& space, const FittedPlane& start,
                        std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
-  work.near.clear();
-  space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
-  if (work.near.size() > kManyNear) {
-    const auto end = work.near.begin() + static_cast<std::ptrdiff_t>(kManyNear);
-    std::nth_element(work.near.begin(), end, work.near.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return work.dots[a] != work.dots[b] ? work.dots[a] > work.dots[b] : a < b;
-    });
-    work.near.erase(end, work.near.end());
-  }
+  find_near(space, start, work);
   return turn_among(space, start.normal, work.near, vertices, steps, work);
 }
 

@@ -21,7 +21,9 @@ struct FittedPlane {
 
 /// Scratch of the fits; one for each thread.
 struct PlaneFitWork {
-  std::vector<double> dots;         ///< of the last measured direction with all points
+  std::vector<double> dots;   ///< of the last measured direction with all points, unless these are many
+  std::uint32_t highest = 0;  ///< row that reaches furthest along that
+  std::vector<FurthestPoint> above;
   std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first
   std::vector<std::uint32_t> tops;  ///< of these, the rows that were highest at some step of the last fit
   std::vector<double> rows, products, trial, next, best;
@@ -29,13 +31,14 @@ struct PlaneFitWork {
   std::uint64_t evaluations = 0;  ///< products of one direction with all points, ever
 };
 
-/// Height, low and products (work.dots) of `normal` for a facet with these vertices (rows of `space`).
+/// Height, low and, unless the space is large, products (work.dots) of `normal` for a facet with these
+/// vertices (rows of `space`).
 FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
                           std::span<const std::uint32_t> vertices, PlaneFitWork& work);
 
 /// Turns `start` towards less width, looking only at points within a width below it, the highest if they are
-/// very many. work.dots must be those of start. Returns the width among those points, which can be less than
-/// over all points, of work.best.
+/// very many. The last plane measured must be start. Returns the width among those points, which can be less
+/// than over all points, of work.best.
 ///
 /// Method    The width of a direction n is max n.x over all points minus min n.v over the facet's vertices, a
 ///           convex function; x - v of the extreme pair, without its part along n, is a subgradient. Steps

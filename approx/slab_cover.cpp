@@ -194,12 +194,7 @@ void SlabCover::settle(Members members, double width, const CoverEffort& effort,
 
 /// How far the simplices reach below the height of the plane, which is measured if it was not yet.
 double SlabCover::depth_below(FittedPlane& plane, Members simplices) {
-  if (!is_measured(plane) && space_.is_large()) {
-    plane.height = space_.height_of(plane.normal, -HUGE_VAL);
-    plane.low = HUGE_VAL;
-  } else if (!is_measured(plane)) {
-    plane = measure_plane(space_, plane.normal, {}, scratch_.local().fit);
-  }
+  if (!is_measured(plane)) plane = measure_plane(space_, plane.normal, {}, scratch_.local().fit);
   double low = HUGE_VAL;
   const double* normal = plane.normal.data();
   for (const std::uint32_t simplex : simplices) {

@@ -74,8 +74,10 @@ void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double widt
   }
 }
 
+/// The same for a plane that was measured last.
 void SlabGrower::flood_measured(std::uint32_t seed, const FittedPlane& plane, double width,
                                 SlabScratch& scratch) const {
+  if (space_.is_large()) return flood_unmeasured(seed, plane, width, scratch);
   const double* dots = scratch.fit.dots.data();
   flood(seed, plane, width, scratch, [dots](std::uint32_t row) { return dots[row]; });
 }
@@ -116,21 +118,6 @@ void SlabGrower::flood_from_own_plane(GrownSlab& slab, double width, SlabScratch
   flood_unmeasured(slab.seed, slab.plane, width, scratch);
 }
 
-/// Elsewhere the parallel plane does that supports all points; false when the seed is too far below that.
-bool SlabGrower::flood_from_supporting_plane(GrownSlab& slab, double width, SlabScratch& scratch) const {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const PointId id : complex_.vertices(SimplexId{slab.seed})) {
-    const double dot = dot_of(slab.plane.normal.data(), space_.row_of(id));
-    low = std::min(low, dot);
-    high = std::max(high, dot);
-  }
-  slab.plane.height = space_.height_of(slab.plane.normal, high);
-  if (slab.plane.height - low > width) return false;
-  slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.height - low)));
-  flood_unmeasured(slab.seed, slab.plane, width, scratch);
-  return true;
-}
-
 void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
   plane = measure_plane(space_, plane.normal, {}, scratch.fit);
   plane.low = 0.0;
@@ -163,8 +150,8 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
     is_measured = true;
   } else {
     if (!may_extend(slab.seed, slab.plane.normal.data(), width)) return;
-    is_measured = !(space_.is_large() && flood_from_supporting_plane(slab, width, scratch));
-    if (is_measured) flood_from_fitted_plane(slab, width, effort, scratch);
+    flood_from_fitted_plane(slab, width, effort, scratch);
+    is_measured = true;
   }
   if (scratch.grown.size() > 1) {
     slab.members.swap(scratch.grown);
@@ -178,7 +165,10 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
     const std::span<const std::uint32_t> vertices = vertices_of(slab.members, scratch);
     FittedPlane turned = slab.plane;
     turned.low = HUGE_VAL;
-    for (const std::uint32_t row : vertices) turned.low = std::min(turned.low, scratch.fit.dots[row]);
+    for (const std::uint32_t row : vertices) {
+      const double dot = space_.is_large() ? dot_of(turned.normal.data(), row) : scratch.fit.dots[row];
+      turned.low = std::min(turned.low, dot);
+    }
     turned = narrow_plane(space_, turned, vertices, effort.fit_steps, scratch.fit);
     flood_measured(slab.seed, turned, width, scratch);
     if (scratch.grown.size() <= slab.members.size()) break;

@@ -57,7 +57,8 @@ class SlabGrower {
 
   /// Fills `slab` from its seed. Seeds that are wider than `width` alone are slabs of their own.
   /// Cost  each simplex beside the slab is met once. A product of a direction with all points, two more each
-  ///       time the slab is turned; none for small slabs where the hull is convex, or the space is large.
+  ///       time the slab is turned; none for small slabs where the hull is convex; a search instead where the
+  ///       space is large.
   void grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
 
   /// The different vertices, as rows of the space.
@@ -68,7 +69,6 @@ class SlabGrower {
   bool may_extend(std::uint32_t seed, const double* normal, double width) const;
   double dot_of(const double* normal, std::uint32_t row) const;
   void flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const;
-  bool flood_from_supporting_plane(GrownSlab& slab, double width, SlabScratch& scratch) const;
   void flood_from_fitted_plane(GrownSlab& slab, double width, const CoverEffort& effort,
                                SlabScratch& scratch) const;
   void measure(FittedPlane& plane, SlabScratch& scratch) const;

@@ -26,14 +26,20 @@ WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, co
     }
   }
   table_ = SupportTable(rank, rows_);
-  constexpr std::size_t kManyProducts = 1 << 14;  // of one direction
-  if (rows_.size() >= kManyProducts) tree_.emplace(rank, rows_);
+  // On spheres the cones of fewer points are too wide for most to be left out.
+  constexpr std::size_t kExponent = 6;
+  if (point_of_row_.size() >> (rank + kExponent) > 0) tree_.emplace(rank, rows_);
 }
 
-double WidthSpace::height_of(std::span<const double> normal, double attained) const {
+FurthestPoint WidthSpace::furthest(std::span<const double> normal, double attained) const {
   FurthestPoint furthest{attained};
   find_furthest(*tree_, normal, {&furthest, 1});
-  return furthest.dot;
+  return furthest;
+}
+
+void WidthSpace::find_above(std::span<const double> normal, double least,
+                            std::vector<FurthestPoint>& found) const {
+  ndhull::find_above(*tree_, normal, least, found);
 }
 
 void WidthSpace::normal_of(std::span<const double> plane, double* normal) const {

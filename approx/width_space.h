@@ -34,10 +34,11 @@ class WidthSpace {
 
   /// So many points that products of a direction with all of them are to be avoided.
   bool is_large() const { return tree_.has_value(); }
-  /// The largest product of a direction with any point, where one that is attained is known: the same number,
-  /// digit for digit, as that of the table. Precondition: is_large(). Cost  some 1 to 3 us
-  /// (core/point_tree.h).
-  double height_of(std::span<const double> normal, double attained) const;
+  /// The furthest point along a direction, where a product that is attained is known. Its row is none when no
+  /// other point reaches further. Precondition: is_large(). Cost  some 1 to 10 us (core/point_tree.h).
+  FurthestPoint furthest(std::span<const double> normal, double attained) const;
+  /// Appends the points that are as far along `normal` as `least`. Precondition: is_large().
+  void find_above(std::span<const double> normal, double least, std::vector<FurthestPoint>& found) const;
 
   /// The unit normal of a plane of the frame.
   void normal_of(std::span<const double> plane, double* normal) const;

@@ -127,7 +127,7 @@ def test_sweep_can_be_interrupted_and_resumed():
 
 def test_sweep_reports_limits_and_goes_on():
     path = SCRATCH / "limits.jsonl"
-    run("sweep", "--families", "sphere,ball", "--dimensions", "7,8", "--points", "300", "--options", "exact",
+    run("sweep", "--families", "sphere,ball", "--dimensions", "7,8", "--points", "1000", "--options", "exact",
         "--rounds", "1", "--warm-up", "0", "--max-seconds", "0.05", "--json", str(path), "--quiet")  # fmt: skip
     assert [record["end"] for record in records_of(path)] == ["time_limit", "skipped"] * 2
     run("sweep", "--families", "sphere", "--dimensions", "6", "--points", "300", "--options", "exact", "--rounds",

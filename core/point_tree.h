@@ -84,4 +84,9 @@ struct FurthestPoint {
 ///         sphere in 8-d some 3 us a direction. At most all products.
 void find_furthest(const PointTree& tree, std::span<const double> normals, std::span<FurthestPoint> furthest);
 
+/// Appends every point whose product with `normal` is at least `least`, with the product, in the order of the
+/// tree. Error as above. Cost  a cone for each 256 points, and the points of the cones that reach so far.
+void find_above(const PointTree& tree, std::span<const double> normal, double least,
+                std::vector<FurthestPoint>& found);
+
 }  // namespace ndhull

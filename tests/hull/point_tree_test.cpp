@@ -95,6 +95,30 @@ TEST(PointTreeLaw, TheResultIsThatOfAllProductsDigitForDigit) {
   }
 }
 
+TEST(PointTreeLaw, AllPointsAboveAreFound) {
+  for (const Shape shape : {Shape::kSphere, Shape::kBall, Shape::kFarSphere}) {
+    for (const std::size_t dimension : {2u, 5u, 11u}) {
+      const Cloud cloud = make_cloud(shape, dimension, 3000, 1.0);
+      const PointTree tree(dimension, cloud.points);
+      const std::span<const double> normal(cloud.normals.data(), dimension);
+      std::vector<double> products;
+      for (std::size_t row = 0; row < 3000; ++row)
+        products.push_back(dot(normal.data(), &cloud.points[row * dimension], dimension));
+      std::vector<double> sorted = products;
+      std::sort(sorted.begin(), sorted.end());
+      for (const std::size_t below : {0u, 1u, 1500u, 2999u}) {
+        std::vector<FurthestPoint> found;
+        find_above(tree, normal, sorted[below], found);
+        EXPECT_EQ(found.size(), 3000 - below);
+        for (const FurthestPoint& point : found) EXPECT_EQ(point.dot, products[point.row]);
+        std::sort(found.begin(), found.end(),
+                  [](const FurthestPoint& a, const FurthestPoint& b) { return a.row < b.row; });
+        for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LT(found[i - 1].row, found[i].row);
+      }
+    }
+  }
+}
+
 TEST(PointTreeLaw, AKnownOrderGivesTheSameForOtherCoordinates) {
   const Cloud cloud = make_cloud(Shape::kBall, 6, 3000, 1.0);
   Cloud moved = cloud;
