@@ -23,7 +23,7 @@ class Merger {
     has_flat_ridge_.assign(complex_.row_count, 0);
     mark_flat(complex_, points_, tolerance_, has_flat_ridge_);
     grow_facets();
-    absorb_slivers();
+    if (!clusters_.empty()) absorb_slivers();
     return facets();
   }
 
@@ -139,9 +139,9 @@ class Merger {
   /// tilted.
   bool adopt_enclosed() {
     bool any = false;
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
-      if (cluster_of_[simplex] != kNone) continue;
-      std::vector<std::uint32_t> hosts;
+    std::vector<std::uint32_t> hosts;
+    for (const std::uint32_t simplex : simplices_beside_facets()) {
+      hosts.clear();
       for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
         if (cluster_of_[neighbour.value] != kNone) hosts.push_back(root(cluster_of_[neighbour.value]));
       }
@@ -152,6 +152,21 @@ class Merger {
       any = true;
     }
     return any;
+  }
+
+  /// Simplices in no cluster that are neighbours of a facet of several, ascending.
+  std::vector<std::uint32_t> simplices_beside_facets() const {
+    std::vector<std::uint32_t> beside;
+    for (const Cluster& cluster : clusters_) {
+      if (cluster.simplices.size() < 2) continue;
+      for (const std::uint32_t simplex : cluster.simplices) {
+        for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex}))
+          if (cluster_of_[neighbour.value] == kNone) beside.push_back(neighbour.value);
+      }
+    }
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    return beside;
   }
 
   /// A vertex of a hull is in at least rank facets. A simplex that has a vertex in fewer, all the others
@@ -166,6 +181,7 @@ class Merger {
         in_cluster.resize(cluster.points.back().value + 1u);
       for (const PointId id : cluster.points) in_cluster[id.value] = true;
     }
+    if (in_cluster.empty()) return false;
     std::vector<std::vector<std::uint32_t>> facets_at(in_cluster.size());
     const auto in_doubt = [&](PointId id) { return id.value < in_cluster.size() && in_cluster[id.value]; };
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
