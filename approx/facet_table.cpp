@@ -150,7 +150,7 @@ CertificatePoints gather_certificate_points(const PointView& points, const Frame
 
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, const CoveredPoints& covered) {
+                            const LengthUnit& unit, const CoveredPoints& covered, bool certifies) {
   const std::size_t dimension = frame.dimension;
   const std::size_t count = layout.facets;
   FacetTable table;
@@ -174,7 +174,11 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
            high.first(layout.simplicial));
   merged_dots(complex, layout, points, normals.data(), low, high);
   const std::span<double> highest(table.outer.data(), count);
-  find_highest(points, normals, {low, high, frame.rank}, layout.simplicial, highest);
+  if (certifies) {
+    find_highest(points, normals, {low, high, frame.rank}, layout.simplicial, highest);
+  } else {
+    std::fill(highest.begin(), highest.end(), HUGE_VAL);
+  }
 
   const double volume_per_determinant =
       1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
@@ -191,7 +195,7 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
         centre += normal[k] * (frame.centre[k] - points.reference[k]);
       // The plane midway of a very wide facet may pass below the interior point; the supporting one never
       // does.
-      if (-offset <= centre) offset = -std::max(high[facet], highest[facet]);
+      if (-offset <= centre) offset = -(certifies ? std::max(high[facet], highest[facet]) : high[facet]);
       const double height = -offset - centre;
       double size = std::abs(offset), size_input = std::abs(offset);
       for (std::size_t k = 0; k < dimension; ++k) {

@@ -51,7 +51,7 @@ struct CoveredPoints {
   double reach = 0.0;  ///< no point is longer than this in the frame
 };
 
-/// Makes planes, certificates and areas of all facets.
+/// Makes planes, certificates and areas of all facets. Unless it `certifies`, outer offsets are +infinity.
 ///
 /// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
 ///           consumed: turned into the normals in place where the shapes allow.
@@ -63,6 +63,6 @@ struct CoveredPoints {
 /// core/point_tree.h).
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, const CoveredPoints& covered);
+                            const LengthUnit& unit, const CoveredPoints& covered, bool certifies);
 
 }  // namespace ndhull

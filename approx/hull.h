@@ -48,7 +48,10 @@ struct Progress {
 struct HullOptions {
   Accuracy accuracy = {};
   bool triangulate = false;  ///< facets stay simplices: no coplanar merging
-  bool unit_cube = false;    ///< widths are measured after scaling the input to the unit cube
+  /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
+  /// the planes are wanted.
+  bool certifies_planes = true;
+  bool unit_cube = false;  ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
   double shift = 1e-12;    ///< [ratio] growth's smallest inward shift, see GrowthOptions::shift

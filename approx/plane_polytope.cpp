@@ -27,7 +27,9 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
     for (std::size_t k = 0; k < rank; ++k)
       dual[row * rank + k] = planes.normals[row * rank + k] / planes.heights[row];
   }
-  const Hull hull = convex_hull(PointView::row_major(dual.data(), count, rank), options);
+  HullOptions planes_only = options;
+  planes_only.certifies_planes = false;
+  const Hull hull = convex_hull(PointView::row_major(dual.data(), count, rank), planes_only);
   polytope.status = hull.status;
   polytope.bounded = hull.rank == rank;
   if (!polytope.bounded) return polytope;

@@ -29,7 +29,7 @@ void write_rows(OutputFile& file, const IdRows& rows, bool with_count) {
 
 // "%6.16g " as C prints it, which is what Qhull prints. A third of the time of an intersection went into the
 // numbers with a format string: std::to_chars takes half as long.
-void write_number(OutputFile& file, double value) {
+void append_number(std::string& line, double value) {
   constexpr std::size_t kWidth = 6;
   std::array<char, 40> text;
   text.fill(' ');
@@ -38,14 +38,18 @@ void write_number(OutputFile& file, double value) {
       std::to_chars(begin, text.data() + text.size() - 1, value, std::chars_format::general, 16);
   const auto length = static_cast<std::size_t>(end - begin);
   const std::size_t padding = length < kWidth ? kWidth - length : 0;
-  file.write({begin - padding, padding + length + 1});
+  line.append(begin - padding, padding + length + 1);
 }
 
 void write_vertices(OutputFile& file, const HalfspaceIntersection& intersection) {
   file.print("{}\n{}\n", intersection.dimension, intersection.vertex_count());
+  std::string line;
   for (std::size_t at = 0; at < intersection.vertices.size(); ++at) {
-    write_number(file, intersection.vertices[at]);
-    if ((at + 1) % intersection.dimension == 0) file.write("\n");
+    append_number(line, intersection.vertices[at]);
+    if ((at + 1) % intersection.dimension != 0) continue;
+    line += '\n';
+    file.write(line);
+    line.clear();
   }
 }
 
