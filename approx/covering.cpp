@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "approx/boundedness.h"
 
@@ -30,10 +31,15 @@ std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, 
   return normals;
 }
 
+/// The smallest product of `normal` with a vertex of the simplex. Of its own, not of a measured plane: where
+/// points are many that has no products with all of them.
 double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t simplex,
-              const std::vector<double>& dots) {
+              std::span<const double> normal) {
   double low = HUGE_VAL;
-  for (const PointId id : complex.vertices(SimplexId{simplex})) low = std::min(low, dots[space.row_of(id)]);
+  for (const PointId id : complex.vertices(SimplexId{simplex})) {
+    const double* z = space.row(space.row_of(id));
+    low = std::min(low, std::inner_product(normal.begin(), normal.end(), z, 0.0));
+  }
   return low;
 }
 
@@ -108,7 +114,7 @@ Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpa
     double least = HUGE_VAL;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
-      const double depth = covering.planes[facet].height - low_of(complex, space, row, work.dots);
+      const double depth = covering.planes[facet].height - low_of(complex, space, row, normals[facet]);
       if (depth < least && std::find(highest.begin(), highest.end(), row) == highest.end()) {
         least = depth;
         own = row;
@@ -122,11 +128,10 @@ Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpa
   for (std::uint32_t facet = 0; facet < normals.size(); ++facet) covering.facet_of[highest[facet]] = facet;
   for (std::uint32_t facet = 0; facet < normals.size(); ++facet) {
     FittedPlane& plane = covering.planes[facet];
-    measure_plane(space, plane.normal, {}, work);
     plane.low = HUGE_VAL;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (covering.facet_of[row] == facet)
-        plane.low = std::min(plane.low, low_of(complex, space, row, work.dots));
+        plane.low = std::min(plane.low, low_of(complex, space, row, plane.normal));
     }
     covering.widest = std::max(covering.widest, plane.width());
   }

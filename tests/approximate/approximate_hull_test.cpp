@@ -95,6 +95,19 @@ TEST(ApproximateHullLaw, NumberOfFacetsIsMet) {
   }
 }
 
+// So many points that fits search a tree instead of multiplying with all of them.
+TEST(ApproximateHullLaw, NumberOfFacetsIsMetWhereVerticesAreMany) {
+  const PointSet set = family_points(PointFamily::kSphere, 20000, 5, 3);
+  for (const std::uint64_t count : {6u, 7u, 40u}) {
+    SCOPED_TRACE(count);
+    HullOptions options;
+    options.accuracy.facets = count;
+    const Hull hull = hull_of(set, options);
+    EXPECT_LE(hull.facet_count(), count);
+    expect_approximate_laws(hull, set.view());
+  }
+}
+
 /// Cubes of gaussian numbers: like measurements, most near the middle and a few far out along the axes.
 PointSet heavy_tailed_points(std::size_t count, std::size_t dimension) {
   PointSet set = family_points(PointFamily::kGaussian, count, dimension, 11);
