@@ -111,7 +111,7 @@ FacetClusters Approximation::run_merging() {
   MergeCounts counts;
   for (int round = 0; round < kRounds; ++round) {
     make_space(true);
-    const SimplexRule simplex_rule(growth_.work().complex, *space_, rule);
+    const SimplexRule simplex_rule(growth_.work().complex, *space_, rule, is_convex());
     SlabCover cover(growth_.work().complex, *space_, is_convex(), &simplex_rule);
     covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{.final_fit_steps = 0});
     counts = merge_clusters(growth_.work().complex, *space_, rule, covering);

@@ -97,8 +97,13 @@ class Merging {
       }
       std::sort(cluster.vertices.begin(), cluster.vertices.end());
       std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
-      cluster.plane = measure_plane(space_, covering_.planes[id].normal, cluster.vertices, work_);
-      cluster.tops.assign(1, work_.highest);
+      cluster.plane = std::move(covering_.planes[id]);
+      if (cluster.plane.height == 0.0) {  // a simplex with its own plane
+        cluster.plane = measure_plane(space_, cluster.plane.normal, cluster.vertices, work_);
+      } else {
+        cluster.plane.low = lowest_dot(space_, cluster.plane.normal, cluster.vertices);
+      }
+      cluster.tops.assign(1, cluster.plane.highest);
       cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
     }
   }
@@ -145,8 +150,7 @@ class Merging {
     const Cluster& first = clusters_[a];
     const Cluster& second = clusters_[b];
     unite(first, second);
-    near_ = united_;
-    near_.insert(near_.end(), first.tops.begin(), first.tops.end());
+    near_ = first.tops;
     near_.insert(near_.end(), second.tops.begin(), second.tops.end());
     const double width = turn_among(space_, normal_, near_, united_, kTrialSteps, work_);
     if (width > rule_.width_cap) return;
@@ -184,7 +188,7 @@ class Merging {
 
   /// Merges b into a if that is within the cap: united_ and work_ are those of the trial fit from `start`.
   void merge(std::uint32_t a, std::uint32_t b, const FittedPlane& start) {
-    turn_among(space_, work_.best, work_.near, united_, kMergeSteps - kTrialSteps, work_);
+    turn_further(kMergeSteps - kTrialSteps, work_);
     FittedPlane plane = measure_plane(space_, work_.best, united_, work_);
     if (plane.width() > start.width()) plane = start;
     if (plane.width() > rule_.width_cap) return;
@@ -194,7 +198,7 @@ class Merging {
     --live_;
     into.plane = std::move(plane);
     into.vertices = united_;
-    into.tops = work_.tops;
+    into.tops.assign(work_.points.tops().begin(), work_.points.tops().end());
     ++into.version;
     from.joined = a;
     std::vector<std::uint32_t> around;

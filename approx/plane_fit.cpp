@@ -15,37 +15,10 @@ double dot(std::size_t rank, const double* a, const double* b) {
 /// Near points from which on only the highest are looked at.
 constexpr std::size_t kManyNear = 256;
 
-/// The points with the largest and, among the facet's vertices, the smallest product.
-struct ExtremePair {
-  std::uint32_t high = 0, low = 0;  // index into work.near; into the facet's vertices
-  double height = 0.0, lowest = 0.0;
-  double width() const { return height - lowest; }
-};
-
-ExtremePair find_near_extremes(PlaneFitWork& work, std::span<const double> normal) {
-  ExtremePair pair;
-  pair.high = work.near_table.find(normal.data(), work.products.data());
-  pair.height = work.products[pair.high];
-  for (std::size_t k = 0; k < normal.size(); ++k) work.next[k] = -normal[k];
-  pair.low = work.facet_table.find(work.next.data(), work.products.data());
-  pair.lowest = -work.products[pair.low];
-  return pair;
-}
-
-void add_top(std::uint32_t row, std::vector<std::uint32_t>& tops) {
-  if (std::find(tops.begin(), tops.end(), row) == tops.end()) tops.push_back(row);
-}
-
-void gather(const WidthSpace& space, std::span<const std::uint32_t> from, PlaneFitWork& work,
-            SupportTable& table) {
-  work.rows.resize(from.size() * space.rank());
-  for (std::size_t i = 0; i < from.size(); ++i)
-    std::copy_n(space.row(from[i]), space.rank(), work.rows.data() + i * space.rank());
-  table.assign(space.rank(), work.rows);
-}
-
-/// work.near: the points within a width below `start`, the highest if they are very many.
-void find_near(const WidthSpace& space, const FittedPlane& start, PlaneFitWork& work) {
+/// work.near: the points within a width below `start`, the highest if they are very many, but no vertices of
+/// the facet.
+void find_near(const WidthSpace& space, const FittedPlane& start, std::span<const std::uint32_t> vertices,
+               PlaneFitWork& work) {
   work.near.clear();
   work.above.clear();
   if (space.is_large()) {
@@ -54,10 +27,11 @@ void find_near(const WidthSpace& space, const FittedPlane& start, PlaneFitWork& 
       work.above.clear();
       space.find_above(start.normal, start.height - share * start.width(), work.above);
     }
+    for (const FurthestPoint& point : work.above) work.near.push_back(point.row);
   } else {
-    space.table().rows_above(work.dots.data(), start.height - start.width(), work.near);
-    for (const std::uint32_t row : work.near) work.above.push_back({work.dots[row], row});
-    work.near.clear();
+    space.table().rows_above(work.products, start.height - start.width(), work.near);
+    if (work.near.size() > kManyNear)
+      for (const std::uint32_t row : work.near) work.above.push_back({work.products.dots[row], row});
   }
   if (work.above.size() > kManyNear) {
     const auto end = work.above.begin() + static_cast<std::ptrdiff_t>(kManyNear);
@@ -65,12 +39,25 @@ void find_near(const WidthSpace& space, const FittedPlane& start, PlaneFitWork& 
                      [](const FurthestPoint& a, const FurthestPoint& b) {
                        return a.dot != b.dot ? a.dot > b.dot : a.row < b.row;
                      });
-    work.above.erase(end, work.above.end());
+    work.near.resize(kManyNear);
+    std::transform(work.above.begin(), end, work.near.begin(),
+                   [](const FurthestPoint& point) { return point.row; });
   }
-  for (const FurthestPoint& point : work.above) work.near.push_back(point.row);
+  work.pass_of_row.resize(space.table().count(), 0);
+  ++work.pass;
+  for (const std::uint32_t vertex : vertices) work.pass_of_row[vertex] = work.pass;
+  std::erase_if(work.near, [&](std::uint32_t row) { return work.pass_of_row[row] == work.pass; });
 }
 
 }  // namespace
+
+double lowest_dot(const WidthSpace& space, std::span<const double> normal,
+                  std::span<const std::uint32_t> vertices) {
+  double low = HUGE_VAL;
+  for (const std::uint32_t vertex : vertices)
+    low = std::min(low, dot(space.rank(), normal.data(), space.row(vertex)));
+  return low;
+}
 
 FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
                           std::span<const std::uint32_t> vertices, PlaneFitWork& work) {
@@ -82,63 +69,31 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
       plane.low = std::min(plane.low, product);
       if (product <= plane.height) continue;
       plane.height = product;
-      work.highest = vertex;
+      plane.highest = vertex;
     }
     const FurthestPoint furthest = space.furthest(normal, plane.height);
     plane.height = furthest.dot;
-    if (furthest.row != FurthestPoint::kNoRow) work.highest = furthest.row;
+    if (furthest.row != FurthestPoint::kNoRow) plane.highest = furthest.row;
     return plane;
   }
-  work.dots.resize(space.table().padded_count());
-  work.highest = space.table().find(normal.data(), work.dots.data());
-  plane.height = work.dots[work.highest];
-  for (const std::uint32_t vertex : vertices) plane.low = std::min(plane.low, work.dots[vertex]);
+  plane.highest = space.table().find(normal.data(), work.products, plane.height);
+  plane.low = lowest_dot(space, normal, vertices);
   return plane;
 }
 
 double turn_among(const WidthSpace& space, std::span<const double> normal,
                   std::span<const std::uint32_t> near, std::span<const std::uint32_t> vertices,
                   unsigned steps, PlaneFitWork& work) {
-  const std::size_t rank = space.rank();
-  gather(space, near, work, work.near_table);
-  gather(space, vertices, work, work.facet_table);
-  work.products.resize(std::max(work.near_table.padded_count(), work.facet_table.padded_count()));
-  work.trial.assign(normal.begin(), normal.end());
-  work.next.resize(rank);
-  work.best = work.trial;
-  ExtremePair pair = find_near_extremes(work, work.trial);
-  work.tops.assign(1, near[pair.high]);
-  double best_width = pair.width();
-  double step = 0.25;  // of the way to width 0, were the width linear
-  for (unsigned i = 0; i < steps; ++i) {
-    double across_sq = 0.0;
-    const double along = pair.width();
-    const double* high = space.row(near[pair.high]);
-    const double* low = space.row(vertices[pair.low]);
-    for (std::size_t k = 0; k < rank; ++k) {
-      work.next[k] = high[k] - low[k] - along * work.trial[k];
-      across_sq += work.next[k] * work.next[k];
-    }
-    if (!(across_sq > 0.0) || !(best_width > 0.0)) break;
-    const double length = step * best_width / across_sq;
-    for (std::size_t k = 0; k < rank; ++k) work.next[k] = work.trial[k] - length * work.next[k];
-    const double scale = 1.0 / std::sqrt(dot(rank, work.next.data(), work.next.data()));
-    for (std::size_t k = 0; k < rank; ++k) work.trial[k] = work.next[k] * scale;
-    pair = find_near_extremes(work, work.trial);
-    add_top(near[pair.high], work.tops);
-    if (pair.width() < best_width) {
-      best_width = pair.width();
-      work.best = work.trial;
-    } else {
-      step *= 0.9;
-    }
-  }
-  return best_width;
+  work.points.assign(space.rank(), space.row(0), vertices, near);
+  work.best.assign(normal.begin(), normal.end());
+  return turn_further(steps, work);
 }
+
+double turn_further(unsigned steps, PlaneFitWork& work) { return work.points.turn(steps, work.best.data()); }
 
 double turn_among_near(const WidthSpace& space, const FittedPlane& start,
                        std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
-  find_near(space, start, work);
+  find_near(space, start, vertices, work);
   return turn_among(space, start.normal, work.near, vertices, steps, work);
 }
 
@@ -146,8 +101,7 @@ FittedPlane narrow_plane(const WidthSpace& space, const FittedPlane& start,
                          std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work) {
   turn_among_near(space, start, vertices, steps, work);
   FittedPlane turned = measure_plane(space, work.best, vertices, work);
-  if (turned.width() <= start.width()) return turned;
-  return measure_plane(space, start.normal, vertices, work);
+  return turned.width() <= start.width() ? turned : start;
 }
 
 }  // namespace ndhull

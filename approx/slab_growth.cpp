@@ -8,9 +8,6 @@ namespace {
 
 /// Simplices from which on turning a slab and growing it again is worth its time: smaller ones gain 1 to 5 %.
 constexpr std::size_t kWorthTurning = 64;
-/// Numbers that are multiplied with a direction faster than the few that a small slab needs are picked out.
-constexpr std::size_t kFewProducts = 4096;
-constexpr float kOutside = -1.0f;
 
 }  // namespace
 
@@ -37,49 +34,62 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
 
 /// Gathers in scratch.grown and scratch.depths the simplices around the seed whose vertices are all less than
 /// `width` below the plane. None when the seed is not among them.
-template <typename DotOf>
-void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch,
-                       const DotOf& dot_of) const {
+void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width,
+                       SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
-  const auto depth_of = [&](std::uint32_t simplex) {
-    double low = HUGE_VAL;
-    for (const PointId id : complex_.vertices(SimplexId{simplex})) {
-      const double dot = dot_of(space_.row_of(id));
-      if (dot < least) return kOutside;
-      low = std::min(low, dot);
-    }
-    return rounded_up_depth(std::max(0.0, plane.height - low));
+  const std::size_t rank = complex_.rank;
+  const auto mix_of = [rank](std::span<const PointId> vertices) {
+    std::uint32_t mix = 0;
+    for (std::size_t k = 0; k < rank; ++k) mix ^= vertices[k].value;
+    return mix;
   };
-  const auto meet = [&](std::uint32_t simplex) {
-    scratch.stamp[simplex] = scratch.flood;
-    const float depth = depth_of(simplex);
-    if (depth == kOutside) return;
-    if (rule_ != nullptr && simplex != seed && !rule_->wants(SimplexId{simplex}, plane, scratch.seed_centre))
+  const std::uint32_t pass = ++scratch.vertex_pass;
+  const auto height_of = [&](PointId vertex) {
+    const std::uint32_t row = space_.row_of(vertex);
+    if (scratch.vertex_stamp[row] != pass) {
+      scratch.vertex_stamp[row] = pass;
+      scratch.dots[row] = dot_of(plane.normal.data(), row);
+    }
+    return scratch.dots[row];
+  };
+  const auto take = [&](std::uint32_t simplex) {
+    double low = HUGE_VAL, sum = 0.0;
+    for (const PointId id : complex_.vertices(SimplexId{simplex})) {
+      const double dot = height_of(id);
+      low = std::min(low, dot);
+      sum += dot;
+    }
+    if (low < least) return;
+    const double mean = sum / static_cast<double>(rank);
+    if (rule_ != nullptr && simplex != seed &&
+        !rule_->wants(SimplexId{simplex}, mean, scratch.compared, scratch.rule_fit))
       return;
     scratch.grown.push_back(simplex);
-    scratch.depths.push_back(depth);
+    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
     for (const SimplexId next : complex_.neighbours(SimplexId{simplex})) {  // they are met next, or soon
       __builtin_prefetch(scratch.stamp.data() + next.value, 1);
-      __builtin_prefetch(complex_.topology.data() + std::size_t{next.value} * 2 * complex_.rank);
+      __builtin_prefetch(complex_.topology.data() + std::size_t{next.value} * 2 * rank);
     }
   };
   scratch.grown.clear();
   scratch.depths.clear();
-  if (rule_ != nullptr) scratch.seed_centre = rule_->centrum_on(SimplexId{seed}, plane);
+  if (rule_ != nullptr) rule_->set_plane(SimplexId{seed}, plane, scratch.compared);
   ++scratch.flood;
-  meet(seed);
+  scratch.stamp[seed] = scratch.flood;
+  take(seed);
   for (std::size_t i = 0; i < scratch.grown.size(); ++i) {
-    for (const SimplexId neighbour : complex_.neighbours(SimplexId{scratch.grown[i]}))
-      if (scratch.stamp[neighbour.value] != scratch.flood) meet(neighbour.value);
+    const auto vertices = complex_.vertices(SimplexId{scratch.grown[i]});
+    const auto neighbours = complex_.neighbours(SimplexId{scratch.grown[i]});
+    const std::uint32_t mix = mix_of(vertices);
+    for (std::size_t k = 0; k < rank; ++k) {
+      const std::uint32_t next = neighbours[k].value;
+      if (scratch.stamp[next] == scratch.flood) continue;
+      scratch.stamp[next] = scratch.flood;
+      // All its vertices are this one's too, but for the one across the ridge.
+      const PointId apex{mix ^ vertices[k].value ^ mix_of(complex_.vertices(SimplexId{next}))};
+      if (!(height_of(apex) < least)) take(next);
+    }
   }
-}
-
-/// The same for a plane that was measured last.
-void SlabGrower::flood_measured(std::uint32_t seed, const FittedPlane& plane, double width,
-                                SlabScratch& scratch) const {
-  if (space_.is_large()) return flood_unmeasured(seed, plane, width, scratch);
-  const double* dots = scratch.fit.dots.data();
-  flood(seed, plane, width, scratch, [dots](std::uint32_t row) { return dots[row]; });
 }
 
 std::span<const std::uint32_t> SlabGrower::vertices_of(std::span<const std::uint32_t> members,
@@ -104,18 +114,17 @@ double SlabGrower::dot_of(const double* normal, std::uint32_t row) const {
   return sum;
 }
 
-void SlabGrower::flood_unmeasured(std::uint32_t seed, const FittedPlane& plane, double width,
-                                  SlabScratch& scratch) const {
-  const double* normal = plane.normal.data();
-  flood(seed, plane, width, scratch, [&](std::uint32_t row) { return dot_of(normal, row); });
-}
-
 /// Where the hull is convex the seed's own plane supports it, and a flood needs the products of few vertices.
 void SlabGrower::flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const {
   slab.plane.height = -HUGE_VAL;
-  for (const PointId id : complex_.vertices(SimplexId{slab.seed}))
-    slab.plane.height = std::max(slab.plane.height, dot_of(slab.plane.normal.data(), space_.row_of(id)));
-  flood_unmeasured(slab.seed, slab.plane, width, scratch);
+  for (const PointId id : complex_.vertices(SimplexId{slab.seed})) {
+    const std::uint32_t row = space_.row_of(id);
+    const double dot = dot_of(slab.plane.normal.data(), row);
+    if (dot <= slab.plane.height) continue;
+    slab.plane.height = dot;
+    slab.plane.highest = row;
+  }
+  flood(slab.seed, slab.plane, width, scratch);
 }
 
 void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
@@ -129,10 +138,11 @@ void SlabGrower::flood_from_fitted_plane(GrownSlab& slab, double width, const Co
   const std::uint32_t alone[] = {slab.seed};
   const std::span<const std::uint32_t> vertices = vertices_of(alone, scratch);
   slab.plane = measure_plane(space_, slab.plane.normal, vertices, scratch.fit);
+  if (rule_ != nullptr) rule_->learn_height(SimplexId{slab.seed}, slab.plane.height);
   if (slab.plane.width() > width)
     slab.plane = narrow_plane(space_, slab.plane, vertices, 4 * effort.fit_steps, scratch.fit);
   slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
-  flood_measured(slab.seed, slab.plane, width, scratch);
+  flood(slab.seed, slab.plane, width, scratch);
 }
 
 void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const {
@@ -142,12 +152,8 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   slab.members.assign(1, slab.seed);
   slab.depths.assign(1, 0.0f);
   bool is_measured = false;
-  if (is_convex_ && space_.table().padded_count() * complex_.rank > kFewProducts) {
+  if (is_convex_) {
     flood_from_own_plane(slab, width, scratch);
-  } else if (is_convex_) {
-    measure(slab.plane, scratch);
-    flood_measured(slab.seed, slab.plane, width, scratch);
-    is_measured = true;
   } else {
     if (!may_extend(slab.seed, slab.plane.normal.data(), width)) return;
     flood_from_fitted_plane(slab, width, effort, scratch);
@@ -164,13 +170,9 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   for (unsigned refit = 0; refit < effort.refits; ++refit) {
     const std::span<const std::uint32_t> vertices = vertices_of(slab.members, scratch);
     FittedPlane turned = slab.plane;
-    turned.low = HUGE_VAL;
-    for (const std::uint32_t row : vertices) {
-      const double dot = space_.is_large() ? dot_of(turned.normal.data(), row) : scratch.fit.dots[row];
-      turned.low = std::min(turned.low, dot);
-    }
+    turned.low = lowest_dot(space_, turned.normal, vertices);
     turned = narrow_plane(space_, turned, vertices, effort.fit_steps, scratch.fit);
-    flood_measured(slab.seed, turned, width, scratch);
+    flood(slab.seed, turned, width, scratch);
     if (scratch.grown.size() <= slab.members.size()) break;
     slab.plane = std::move(turned);
     slab.members.swap(scratch.grown);

@@ -37,14 +37,16 @@ struct GrownSlab {
 /// What one thread needs to grow slabs, and to fit their planes.
 struct SlabScratch {
   SlabScratch(std::size_t row_count, std::size_t vertex_count)
-      : stamp(row_count, 0), vertex_stamp(vertex_count, 0) {}
+      : stamp(row_count, 0), vertex_stamp(vertex_count, 0), dots(vertex_count) {}
   PlaneFitWork fit;
+  PlaneFitWork rule_fit;                    // of the rule, while a slab grows by what `fit` has measured
   std::vector<std::uint32_t> stamp;         // per row of the complex: last flood that met it
-  std::vector<std::uint32_t> vertex_stamp;  // per row of the space
+  std::vector<std::uint32_t> vertex_stamp;  // per row of the space: last pass over vertices
   std::uint32_t flood = 0, vertex_pass = 0;
+  std::vector<double> dots;  // per row of the space: product with the flood's normal, once it was asked for
   std::vector<std::uint32_t> vertices, grown;
   std::vector<float> depths;
-  std::vector<double> seed_centre;
+  RulePlane compared;
 };
 
 /// Grows slabs; holds no state but what it was given, so threads may share it.
@@ -72,12 +74,7 @@ class SlabGrower {
   void flood_from_fitted_plane(GrownSlab& slab, double width, const CoverEffort& effort,
                                SlabScratch& scratch) const;
   void measure(FittedPlane& plane, SlabScratch& scratch) const;
-  template <typename DotOf>
-  void flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch,
-             const DotOf& dot_of) const;
-  void flood_unmeasured(std::uint32_t seed, const FittedPlane& plane, double width,
-                        SlabScratch& scratch) const;
-  void flood_measured(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
+  void flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;

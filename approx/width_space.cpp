@@ -54,6 +54,16 @@ void WidthSpace::normal_of(std::span<const double> plane, double* normal) const 
   for (std::size_t i = 0; i < rank_; ++i) normal[i] *= scale;
 }
 
+double WidthSpace::distance_of(std::span<const double> plane) const {
+  double length_sq = 0.0;
+  for (std::size_t i = 0; i < rank_; ++i) {
+    double entry = 0.0;
+    for (std::size_t k = i; k < rank_; ++k) entry += factor_[i * rank_ + k] * plane[k];
+    length_sq += entry * entry;
+  }
+  return 1.0 / std::sqrt(length_sq);
+}
+
 void WidthSpace::plane_of(const double* normal, double height, double* plane) const {
   for (std::size_t i = rank_; i-- > 0;) {
     double rest = normal[i] / height;

@@ -42,9 +42,12 @@ class WidthSpace {
 
   /// The unit normal of a plane of the frame.
   void normal_of(std::span<const double> plane, double* normal) const;
+  /// How far a plane of the frame is from the frame's centre.
+  double distance_of(std::span<const double> plane) const;
   /// The plane of the frame with this unit normal at `height` from the centre.
   void plane_of(const double* normal, double height, double* plane) const;
-  /// m with m . a = (R a) . normal for all a: the sign says on which side of `normal` a plane faces.
+  /// m with m . a = (R a) . normal for all a: the sign says on which side of `normal` a plane faces. Of a
+  /// point of the space in place of a normal: the point in the frame.
   void facing(const double* normal, double* m) const;
 
  private:

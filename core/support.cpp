@@ -1,5 +1,6 @@
 #include "core/support.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/simd_targets.h"
@@ -9,51 +10,64 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "core/dimension_switch.h"
+
+#ifndef NDHULL_SUPPORT_BLOCK_
+#define NDHULL_SUPPORT_BLOCK_
+namespace ndhull {
+/// Points of a block: a vector of floats where vectors are longest.
+inline constexpr std::size_t kSupportBlock = 16;
+}  // namespace ndhull
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+using SupportTag = hn::CappedTag<float, kSupportBlock>;
+
 template <std::size_t D>
-double largest_of(const double* direction, const double* columns, std::size_t stride, double* dots) {
-  const hn::ScalableTag<double> tag;
-  const std::size_t lanes = hn::Lanes(tag);
-  auto largest = hn::Set(tag, -HUGE_VAL);
-  for (std::size_t row = 0; row < stride; row += lanes) {
-    auto dot = hn::Mul(hn::Set(tag, direction[0]), hn::LoadU(tag, columns + row));
-    for (std::size_t k = 1; k < D; ++k) {
-      dot = hn::MulAdd(hn::Set(tag, direction[k]), hn::LoadU(tag, columns + k * stride + row), dot);
+float fill_dots(const float* direction, const float* blocks, std::size_t block_count, float* dots) {
+  const SupportTag tag;
+  auto largest = hn::Set(tag, -HUGE_VALF);
+  for (std::size_t block = 0; block < block_count; ++block) {
+    for (std::size_t at = 0; at < kSupportBlock; at += hn::Lanes(tag)) {
+      const float* column = blocks + block * D * kSupportBlock + at;
+      auto dot = hn::Mul(hn::Set(tag, direction[0]), hn::LoadU(tag, column));
+      for (std::size_t k = 1; k < D; ++k)
+        dot = hn::MulAdd(hn::Set(tag, direction[k]), hn::LoadU(tag, column + k * kSupportBlock), dot);
+      hn::StoreU(dot, tag, dots + block * kSupportBlock + at);
+      largest = hn::Max(largest, dot);
     }
-    hn::StoreU(dot, tag, dots + row);
-    largest = hn::Max(largest, dot);
   }
   return hn::GetLane(hn::MaxOfLanes(tag, largest));
 }
 
-std::uint32_t find_support(std::size_t dimension, const double* direction, const double* columns,
-                           std::size_t stride, double* dots) {
-  double largest = 0.0;
+float fill_dots_any(std::size_t dimension, const float* direction, const float* blocks,
+                    std::size_t block_count, float* dots) {
+  float largest = 0.0f;
   call_with_dimension<1, kMaxRank>(
-      dimension, [&](auto d) { largest = largest_of<d>(direction, columns, stride, dots); });
-  const hn::ScalableTag<double> tag;
-  for (std::size_t row = 0; row < stride; row += hn::Lanes(tag)) {
-    const auto equal = hn::Eq(hn::LoadU(tag, dots + row), hn::Set(tag, largest));
-    const std::intptr_t found = hn::FindFirstTrue(tag, equal);
-    if (found >= 0) return static_cast<std::uint32_t>(row) + static_cast<std::uint32_t>(found);
-  }
-  return 0;
+      dimension, [&](auto d) { largest = fill_dots<d>(direction, blocks, block_count, dots); });
+  return largest;
 }
 
-void find_rows_above(const double* dots, std::size_t count, double low, std::vector<std::uint32_t>& rows) {
-  const hn::ScalableTag<double> tag;
-  const std::size_t lanes = hn::Lanes(tag);
+/// A NaN is not below `low`.
+void find_rows_above(const float* dots, std::size_t count, float low, std::vector<std::uint32_t>& rows) {
+  const SupportTag tag;
   const auto least = hn::Set(tag, low);
-  for (std::size_t row = 0; row < count; row += lanes) {
-    if (hn::AllFalse(tag, hn::Ge(hn::LoadU(tag, dots + row), least))) continue;
-    for (std::size_t i = row; i < row + lanes && i < count; ++i)
-      if (dots[i] >= low) rows.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t row = 0; row < count; row += hn::Lanes(tag)) {
+    const auto is_above = hn::Not(hn::Lt(hn::LoadU(tag, dots + row), least));
+    if (hn::AllFalse(tag, is_above)) continue;
+    std::uint8_t bytes[8] = {};  // as many bits as there are lanes
+    hn::StoreMaskBits(tag, is_above, bytes);
+    for (std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8; bits != 0;
+         bits &= bits - 1) {
+      const auto found = static_cast<std::uint32_t>(row) + static_cast<std::uint32_t>(__builtin_ctz(bits));
+      if (found < count) rows.push_back(found);
+    }
   }
 }
 
@@ -63,27 +77,51 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(find_support);
+HWY_EXPORT(fill_dots_any);
 HWY_EXPORT(find_rows_above);
 
-void SupportTable::assign(std::size_t dimension, std::span<const double> rows) {
-  dimension_ = dimension;
-  count_ = rows.size() / dimension;
-  constexpr std::size_t kWholeVectors = 256 / sizeof(double);  // the longest of any instruction set
-  stride_ = (count_ + kWholeVectors - 1) / kWholeVectors * kWholeVectors;
-  columns_.resize(dimension * stride_);
-  for (std::size_t row = 0; row < stride_; ++row) {
-    const std::size_t from = row < count_ ? row : count_ - 1;
-    for (std::size_t k = 0; k < dimension; ++k) columns_[k * stride_ + row] = rows[from * dimension + k];
+SupportTable::SupportTable(std::size_t dimension, std::span<const double> rows)
+    : dimension_(dimension), count_(rows.size() / dimension), rows_(rows.data()) {
+  double largest = 0.0;
+  for (const double x : rows) largest = std::max(largest, std::abs(x));
+  if (largest > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest) - 1, -1000, 1000));
+  // Two roundings of each factor, one of each operation; twice that for what they make of each other.
+  rounding_ = static_cast<float>(2 * dimension * (dimension + 3)) * 0x1p-24f;
+  const std::size_t block_count = (count_ + kSupportBlock - 1) / kSupportBlock;
+  blocks_.resize(block_count * dimension * kSupportBlock);
+  for (std::size_t row = 0; row < block_count * kSupportBlock; ++row) {
+    const double* from = rows_ + std::min(row, count_ - 1) * dimension;
+    float* const to = blocks_.data() + row / kSupportBlock * dimension * kSupportBlock + row % kSupportBlock;
+    for (std::size_t k = 0; k < dimension; ++k) to[k * kSupportBlock] = static_cast<float>(from[k] * scale_);
   }
 }
 
-std::uint32_t SupportTable::find(const double* direction, double* dots) const {
-  return HWY_DYNAMIC_DISPATCH(find_support)(dimension_, direction, columns_.data(), stride_, dots);
+std::uint32_t SupportTable::find(const double* direction, SupportProducts& products, double& height) const {
+  auto& [dots, candidates] = products;
+  std::array<float, kMaxRank> entries;
+  for (std::size_t k = 0; k < dimension_; ++k) entries[k] = static_cast<float>(direction[k]);
+  const std::size_t block_count = blocks_.size() / (dimension_ * kSupportBlock);
+  dots.resize(block_count * kSupportBlock);
+  const float largest = HWY_DYNAMIC_DISPATCH(fill_dots_any)(dimension_, entries.data(), blocks_.data(),
+                                                            block_count, dots.data());
+  candidates.clear();
+  HWY_DYNAMIC_DISPATCH(find_rows_above)(dots.data(), count_, largest - 2.0f * rounding_, candidates);
+  std::uint32_t furthest = 0;
+  height = -HUGE_VAL;
+  for (const std::uint32_t row : candidates) {
+    double dot = 0.0;
+    for (std::size_t k = 0; k < dimension_; ++k) dot += direction[k] * rows_[row * dimension_ + k];
+    if (dot <= height) continue;
+    height = dot;
+    furthest = row;
+  }
+  return furthest;
 }
 
-void SupportTable::rows_above(const double* dots, double low, std::vector<std::uint32_t>& rows) const {
-  HWY_DYNAMIC_DISPATCH(find_rows_above)(dots, count_, low, rows);
+void SupportTable::rows_above(const SupportProducts& products, double low,
+                              std::vector<std::uint32_t>& rows) const {
+  const auto least = static_cast<float>(low * scale_) - rounding_;
+  HWY_DYNAMIC_DISPATCH(find_rows_above)(products.dots.data(), count_, least, rows);
 }
 
 }  // namespace ndhull

@@ -1,4 +1,8 @@
 // The support function of a table of points: how far it reaches in a direction, and where.
+//
+// Idea. Products in single precision say which few points may be the furthest; those are computed in double
+// precision. Half the memory is read, which is all that counts where the table is larger than the first
+// cache.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +12,39 @@
 
 namespace ndhull {
 
-/// Points as columns, for products of one direction with all of them.
+/// Of one direction with all points, in single precision; memory that is used again.
+struct SupportProducts {
+  std::vector<float> dots;                ///< in the table's own scale
+  std::vector<std::uint32_t> candidates;  ///< that may be the furthest
+};
+
+/// Points as columns in blocks, for products of one direction with all of them.
 class SupportTable {
  public:
   SupportTable() = default;
-  /// Shapes  rows: count x dimension, row-major. dimension 1 to kMaxRank.
-  SupportTable(std::size_t dimension, std::span<const double> rows) { assign(dimension, rows); }
-  /// The same in an old table's memory.
-  void assign(std::size_t dimension, std::span<const double> rows);
+  /// Shapes  rows: count x dimension, row-major, which must outlive this. dimension 1 to kMaxRank.
+  SupportTable(std::size_t dimension, std::span<const double> rows);
 
   std::size_t dimension() const { return dimension_; }
   std::size_t count() const { return count_; }
-  /// Numbers that `dots` must have room for: the count, rounded up to whole vectors.
-  std::size_t padded_count() const { return stride_; }
 
-  /// Fills dots[row] = direction . point and returns the row of the largest (the first of equal ones).
-  /// Precondition: count >= 1.
-  /// Cost    count x dimension fused multiply-adds, at close to the machine's peak.
-  std::uint32_t find(const double* direction, double* dots) const;
+  /// The furthest row along `direction` (the first of equal ones), and its product in double precision.
+  /// `products` are for rows_above.
+  /// Precondition: count >= 1; no entry of `direction` is larger than 1.
+  /// Cost    count x dimension fused multiply-adds of floats, at close to the machine's peak, and a product
+  ///         for each point that is within their rounding of the furthest.
+  std::uint32_t find(const double* direction, SupportProducts& products, double& height) const;
 
-  /// Appends the rows with dots[row] >= low, ascending, to `rows`.
-  void rows_above(const double* dots, double low, std::vector<std::uint32_t>& rows) const;
+  /// Appends the rows with products of `low` or more, ascending; some that are less by rounding of single
+  /// precision may be among them.
+  void rows_above(const SupportProducts& products, double low, std::vector<std::uint32_t>& rows) const;
 
  private:
-  std::size_t dimension_ = 0, count_ = 0, stride_ = 0;
-  std::vector<double> columns_;  // dimension x stride; the last point again as padding
+  std::size_t dimension_ = 0, count_ = 0;
+  const double* rows_ = nullptr;
+  double scale_ = 1.0;         // a power of two: scaled coordinates are at most 1
+  float rounding_ = 0.0f;      // no product in single precision is off by more, in scaled coordinates
+  std::vector<float> blocks_;  // whole blocks of 16 points x dimension; the last point again as padding
 };
 
 }  // namespace ndhull
