@@ -79,7 +79,7 @@ std::string run_gnuplot(const std::string& text) {
 }
 
 // In gnuplot's double quotes only the backslash and the quote mean something.
-std::string quoted(const std::string& text) {
+std::string gnuplot_string(const std::string& text) {
   std::string result = "\"";
   for (const char letter : text) {
     if (letter == '"' || letter == '\\') result += '\\';
@@ -99,7 +99,7 @@ std::string preamble(const std::string& name, const std::string& title, const st
       "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd' lt 1\nset border lc rgb "
       "'#666666'\n"
       "set key outside right top vertical Left reverse samplen 2\nset format y '%g'\n",
-      quoted(name), quoted(title), quoted(x_label), quoted(y_label));
+      gnuplot_string(name), gnuplot_string(title), gnuplot_string(x_label), gnuplot_string(y_label));
 }
 
 std::pair<double, double> x_range(const Chart& chart) {
@@ -143,7 +143,7 @@ std::string draw_svg(const Chart& chart, const std::string& name) {
     script += "END\n";
     plot += fmt::format("{} $series{} using 1:2 with linespoints lw 2 pt 7 ps 0.6 dt {} lc rgb '{}' title {}",
                         plot.empty() ? "plot" : ",", number, series.is_dashed ? 2 : 1,
-                        kColours[series.colour % kColours.size()], quoted(series.name));
+                        kColours[series.colour % kColours.size()], gnuplot_string(series.name));
     ++number;
   }
   return with_own_ids(run_gnuplot(script + plot + "\n"), name);
@@ -155,7 +155,7 @@ std::string draw_svg(const BarChart& chart, const std::string& name) {
       "set style data histograms\nset style histogram rowstacked\nset style fill solid 1 border -1\n"
       "set boxwidth 0.7\nset yrange [0:100]\n$bars << END\n";
   for (std::size_t category = 0; category < chart.categories.size(); ++category) {
-    script += quoted(chart.categories[category]);
+    script += gnuplot_string(chart.categories[category]);
     for (const double value : chart.values[category]) script += fmt::format(" {}", value);
     script += "\n";
   }
@@ -163,7 +163,7 @@ std::string draw_svg(const BarChart& chart, const std::string& name) {
   std::string plot;
   for (std::size_t part = 0; part < chart.parts.size(); ++part) {
     plot += fmt::format("{} $bars using {}:xtic(1) lc rgb '{}' title {}", part == 0 ? "plot" : ",", part + 2,
-                        kColours[part % kColours.size()], quoted(chart.parts[part]));
+                        kColours[part % kColours.size()], gnuplot_string(chart.parts[part]));
   }
   return with_own_ids(run_gnuplot(script + plot + "\n"), name);
 }

@@ -26,7 +26,7 @@ struct CountedCase {
   const char* options;
   std::string name() const { return fmt::format("{}, {}", input, options); }
 };
-constexpr CountedCase kCases[] = {
+constexpr CountedCase kCountedCases[] = {
     {"500 s D4 t1", "exact"},      {"500 s D5 t1", "exact"},
     {"200 s D7 t1", "exact"},      {"c D7", "exact"},
     {"1000 W1e-13 D5", "exact"},   {"diamonds, unit cube", "exact"},
@@ -51,7 +51,7 @@ HullOptions hull_options(const CountedCase& counted, const BenchCase& bench_case
 
 // In this process, without a word: what valgrind watches.
 void run_here(const CountsOptions& options) {
-  for (const CountedCase& counted : kCases) {
+  for (const CountedCase& counted : kCountedCases) {
     if (counted.name() != options.run_here) continue;
     const BenchCase bench_case = named_bench_input(counted.input);
     const BenchInput input = bench_case.load(options.selection.data_folder);
@@ -86,7 +86,7 @@ std::optional<std::uint64_t> count_instructions(const CountedCase& counted, cons
 
 RunPlan counts_plan(const CountsOptions& options) {
   RunPlan plan;
-  for (const CountedCase& counted : kCases) {
+  for (const CountedCase& counted : kCountedCases) {
     if (!options.selection.is_chosen(counted.name())) continue;
     const BenchCase bench_case = named_bench_input(counted.input);
     plan.inputs.push_back(
@@ -117,7 +117,7 @@ RunPlan counts_plan(const CountsOptions& options) {
 void run_counts(const CountsOptions& options) {
   if (!options.run_here.empty()) return run_here(options);
   if (options.selection.list) {
-    for (const CountedCase& counted : kCases) fmt::print("{}\n", counted.name());
+    for (const CountedCase& counted : kCountedCases) fmt::print("{}\n", counted.name());
     return;
   }
   MeasureOptions measuring;

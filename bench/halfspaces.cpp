@@ -23,7 +23,7 @@
 namespace ndhull {
 namespace {
 
-constexpr const char* kCommand = "halfspaces";
+constexpr const char* kHalfspacesCommand = "halfspaces";
 
 /// Halfspaces n.x <= b about the origin, n uniform on the sphere.
 struct HalfspaceFamily {
@@ -169,8 +169,8 @@ RunPlan halfspaces_plan(const HalfspacesOptions& options) {
                              return BenchInput{halfspaces_of(family), {}};
                            }});
     PlannedRun run{.input = plan.inputs.size() - 1,
-                   .command = kCommand,
-                   .task = kCommand,
+                   .command = kHalfspacesCommand,
+                   .task = kHalfspacesCommand,
                    .engine = "ndhull",
                    .options = {.text = "intersect --threads 1", .accuracy = {}},
                    .rounds = options.rounds};
@@ -201,12 +201,12 @@ Table halfspaces_table(const std::vector<RunRecord>& records) {
   std::vector<std::string> inputs;
   for (const RunRecord& record : records) {
     const bool is_new = std::find(inputs.begin(), inputs.end(), record.key.input) == inputs.end();
-    if (record.command == kCommand && is_new) inputs.push_back(record.key.input);
+    if (record.command == kHalfspacesCommand && is_new) inputs.push_back(record.key.input);
   }
   for (const std::string& input : inputs) {
     Repeats ndhull, qhalf;
     for (const RunRecord& record : records) {
-      if (record.command == kCommand && record.key.input == input)
+      if (record.command == kHalfspacesCommand && record.key.input == input)
         add_repeat(record, record.key.engine == "ndhull" ? ndhull : qhalf);
     }
     std::vector<std::string> row{input};

@@ -24,7 +24,7 @@
 namespace ndhull {
 namespace {
 
-constexpr const char* kCommand = "joggle";
+constexpr const char* kJoggleCommand = "joggle";
 
 /// A size of the joggle and the share of runs with a problem that the manual gives for it.
 struct ManualRow {
@@ -97,7 +97,7 @@ struct Shares {
 Shares shares_of(const std::vector<RunRecord>& records, const ManualTable& manual, const ManualRow& row) {
   Shares shares;
   for (const RunRecord& record : records) {
-    const bool is_of_row = record.command == kCommand && record.key.input == manual.input &&
+    const bool is_of_row = record.command == kJoggleCommand && record.key.input == manual.input &&
                            record.key.options == option_of(row) && record.is_done();
     if (!is_of_row) continue;
     const auto share = record.run.detail.at("share").get<double>();
@@ -137,8 +137,8 @@ RunPlan joggle_plan(const JoggleBenchOptions& options) {
         const bool is_qhull = std::string(engine) == "qhull";
         if (is_qhull && options.without_qhull) continue;
         plan.runs.push_back({.input = plan.inputs.size() - 1,
-                             .command = kCommand,
-                             .task = kCommand,
+                             .command = kJoggleCommand,
+                             .task = kJoggleCommand,
                              .engine = engine,
                              .options = {.text = option_of(row), .accuracy = {}},
                              .work = [row, qhull_input = is_qhull ? input : "",

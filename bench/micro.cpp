@@ -25,7 +25,7 @@ struct MicroCase {
   std::size_t dimension, count;
   const char* options;
 };
-constexpr MicroCase kCases[] = {
+constexpr MicroCase kMicroCases[] = {
     {3, 1000, "exact"}, {5, 500, "exact"}, {8, 60, "exact"}, {5, 500, "width 10%"}, {5, 500, "W5% C0.5%"},
 };
 
@@ -55,7 +55,7 @@ void measure_hull(benchmark::State& state, const MicroCase& micro) {
 }
 
 void run_micro(const MicroOptions& options) {
-  for (const MicroCase& micro : kCases) {
+  for (const MicroCase& micro : kMicroCases) {
     const std::string name = fmt::format("sphere {}-d, {}, {}", micro.dimension, micro.count, micro.options);
     benchmark::RegisterBenchmark(name.c_str(), [micro](benchmark::State& state) {
       measure_hull(state, micro);

@@ -18,7 +18,7 @@
 namespace ndhull {
 namespace {
 
-constexpr const char* kCommand = "phases";
+constexpr const char* kPhasesCommand = "phases";
 
 struct PhasesOptions {
   CaseSelection selection;
@@ -50,7 +50,7 @@ RunPlan phases_plan(const PhasesOptions& options) {
   for (const BenchCase& bench_case : options.selection.cases()) {
     plan.inputs.push_back(case_input(bench_case, options.selection.data_folder));
     plan.runs.push_back({.input = plan.inputs.size() - 1,
-                         .command = kCommand,
+                         .command = kPhasesCommand,
                          .task = {},
                          .engine = "ndhull",
                          .options = parse_option_set("exact"),
@@ -76,7 +76,7 @@ Table phases_table(const std::vector<RunRecord>& records) {
               .rows = {}};
   std::vector<RunRecord> exact;
   std::copy_if(records.begin(), records.end(), std::back_inserter(exact), [](const RunRecord& record) {
-    const bool is_ours = record.command == kCommand || record.command == "peers";
+    const bool is_ours = record.command == kPhasesCommand || record.command == "peers";
     return is_ours && record.key.engine == "ndhull" && record.key.options == "exact";
   });
   auto measurements = measurements_of(exact);

@@ -21,7 +21,7 @@
 namespace ndhull {
 namespace {
 
-constexpr const char* kCommand = "rays";
+constexpr const char* kRaysCommand = "rays";
 constexpr const char* kCompareTask = "largest beside the hull";
 constexpr const char* kBigTask = "without a hull";
 
@@ -100,7 +100,7 @@ constexpr BigSet kBigSets[] = {{100'000, 12, "largest 100", search},
 void add_run(const char* task, const std::string& text, std::function<HullRun(const BenchInput&)> work,
              RunPlan& plan) {
   plan.runs.push_back({.input = plan.inputs.size() - 1,
-                       .command = kCommand,
+                       .command = kRaysCommand,
                        .task = task,
                        .engine = "ndhull",
                        .options = {.text = text, .accuracy = {}},
@@ -124,7 +124,7 @@ double mean(const std::vector<double>& values) {
 Table compare_table(const std::vector<RunRecord>& records) {
   std::vector<RaySample> samples;
   for (const RunRecord& record : records) {
-    const bool is_ours = record.command == kCommand && record.task == kCompareTask && record.is_done();
+    const bool is_ours = record.command == kRaysCommand && record.task == kCompareTask && record.is_done();
     if (!is_ours || !record.run.detail.contains("recall")) continue;
     if (samples.empty() || samples.back().input != record.key.input)
       samples.emplace_back().input = record.key.input;
@@ -157,7 +157,7 @@ Table big_table(const std::vector<RunRecord>& records) {
               .rows = {},
               .left_columns = 3};
   for (const RunRecord& record : records) {
-    if (record.command != kCommand || record.task != kBigTask) continue;
+    if (record.command != kRaysCommand || record.task != kBigTask) continue;
     std::vector<std::string> row{record.key.input, record.key.options, record.reason, "-", "-"};
     if (record.is_done()) {
       row[2] = record.run.detail.at("result").get<std::string>();

@@ -12,7 +12,7 @@ namespace {
 
 using Field = std::pair<const char*, std::string>;
 
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string field = "\"";
   for (const char letter : text) field += letter == '"' ? std::string("\"\"") : std::string(1, letter);
@@ -78,7 +78,7 @@ std::vector<Field> figures_of(const Repeats& repeats) {
 std::string joined(const std::vector<Field>& fields, bool header) {
   std::string line;
   for (const auto& [name, value] : fields)
-    line += (line.empty() ? "" : ",") + (header ? name : quoted(value));
+    line += (line.empty() ? "" : ",") + (header ? name : csv_field(value));
   return line + "\n";
 }
 

@@ -16,7 +16,7 @@ namespace ndhull {
 namespace {
 
 // Below, seconds and bytes are those of starting, not of facets.
-constexpr double kManyFacets = 2000.0, kManyFacetsForBytes = 50000.0;
+constexpr double kManyFacetsForTime = 2000.0, kManyFacetsForBytes = 50000.0;
 // A line through two points fits always.
 constexpr std::size_t kFewestSamples = 3;
 
@@ -60,7 +60,7 @@ std::map<Key, std::vector<GrowthSample>> grouped(const std::vector<GrowthSample>
                                                  const std::function<Key(const GrowthSample&)>& key) {
   std::map<Key, std::vector<GrowthSample>> groups;
   for (const GrowthSample& sample : samples) {
-    if (sample.facets >= kManyFacets) groups[key(sample)].push_back(sample);
+    if (sample.facets >= kManyFacetsForTime) groups[key(sample)].push_back(sample);
   }
   std::erase_if(groups, [](const auto& group) { return group.second.size() < kFewestSamples; });
   return groups;

@@ -21,7 +21,7 @@
 namespace ndhull {
 namespace {
 
-constexpr const char* kCommand = "selections";
+constexpr const char* kSelectionsCommand = "selections";
 constexpr const char* kFewTask = "few facets";
 constexpr const char* kTargetTask = "target for volume";
 constexpr const char* kByArea = "largest, bounded";
@@ -141,7 +141,7 @@ class SelectionsPlan {
   void add_run(const char* task, const std::string& group, const char* engine, const std::string& text,
                std::function<HullRun(const BenchInput&)> work) {
     plan_.runs.push_back({.input = plan_.inputs.size() - 1,
-                          .command = kCommand,
+                          .command = kSelectionsCommand,
                           .task = task,
                           .group = group,
                           .engine = engine,
@@ -158,7 +158,7 @@ const RunRecord* find_record(const std::vector<RunRecord>& records, const char* 
                              const std::string& input, const std::string& options) {
   const RunRecord* found = nullptr;
   for (const RunRecord& record : records) {
-    if (record.command == kCommand && record.task == task && record.key.input == input &&
+    if (record.command == kSelectionsCommand && record.task == task && record.key.input == input &&
         record.key.options == options && record.is_done()) {
       found = &record;
     }

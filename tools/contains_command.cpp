@@ -20,7 +20,7 @@
 namespace ndhull {
 namespace {
 
-struct Arguments {
+struct ContainsArguments {
   std::string planes, queries;
   std::string output = "-";
   double width = 0.0;
@@ -68,7 +68,7 @@ void write_summary(const std::vector<PlaneDistance>& distances, double width) {
              distances[furthest].distance);
 }
 
-void run_contains(const Arguments& arguments) {
+void run_contains(const ContainsArguments& arguments) {
   if (arguments.planes == "-" && arguments.queries == "-") {
     throw Error(ErrorCode::kUsage,
                 "contains: found - for both, expected one of them in a file: standard input is read once");
@@ -92,7 +92,7 @@ void run_contains(const Arguments& arguments) {
 }  // namespace
 
 void add_contains_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ContainsArguments>();
   CLI::App* const command = app.add_subcommand(
       "contains",
       "Signed distances of points from outer planes: positive is outside, and which plane says so.");

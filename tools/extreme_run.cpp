@@ -6,7 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "core/error.h"
 #include "core/plane_value.h"
 #include "tools/byte_count.h"
+#include "tools/exit_code.h"
 #include "tools/file_bytes.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
@@ -27,19 +27,13 @@
 #include "tools/plane_writer.h"
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
+#include "tools/stopwatch.h"
 #include "tools/summary_text.h"
 
 namespace ndhull {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-constexpr int kVerificationFailedExitCode = 2;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<NamedOutput> outputs_of(const ExtremeRequest& request) {
   std::vector<NamedOutput> outputs;
@@ -177,12 +171,6 @@ std::string summary(const ExtremeRequest& request, const Outcome& outcome) {
   text += fmt::format("memory    {}\n", format_byte_count(peak_memory_bytes()));
   if (outcome.is_verified) text += "verified  a plane parts each vertex from all other points\n";
   return text;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ constexpr std::array kFamilies = {
     NamedFamily{PointFamily::kClusters, "clusters"},
 };
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void refuse_request(const std::string& message) {
   throw Error(ErrorCode::kUsage, "generate: " + message);
 }
 
@@ -72,26 +72,27 @@ void check_parameters(const GenerateOptions& o) {
   if (o.dimension == 0) throw Error(ErrorCode::kDimensionTooLow, "generate: dimension 0; give -d 1 or more");
   const bool is_odd = o.dimension % 2 == 1;
   if (o.family == PointFamily::kCyclic && o.curve == CyclicCurve::kTrigonometric && is_odd) {
-    refuse("the trigonometric curve needs an even dimension, found " + std::to_string(o.dimension));
+    refuse_request("the trigonometric curve needs an even dimension, found " + std::to_string(o.dimension));
   }
-  if (o.family == PointFamily::kLattice && o.side == 0) refuse("a lattice needs a side of 1 or more");
+  if (o.family == PointFamily::kLattice && o.side == 0) refuse_request("a lattice needs a side of 1 or more");
   if (o.family == PointFamily::kLens && !(std::isfinite(o.lens_radius) && o.lens_radius > 1.0)) {
-    refuse("the lens radius must be above 1, found " + std::to_string(o.lens_radius));
+    refuse_request("the lens radius must be above 1, found " + std::to_string(o.lens_radius));
   }
   if ((o.family == PointFamily::kLens || o.family == PointFamily::kCone) && o.dimension < 2) {
-    refuse("lens and cone need dimension 2 or more");
+    refuse_request("lens and cone need dimension 2 or more");
   }
   if (o.family == PointFamily::kEllipsoid) {
     if (!o.axes.empty() && o.axes.size() != o.dimension) {
-      refuse(std::to_string(o.axes.size()) + " axes for dimension " + std::to_string(o.dimension));
+      refuse_request(std::to_string(o.axes.size()) + " axes for dimension " + std::to_string(o.dimension));
     }
     if (!std::all_of(o.axes.begin(), o.axes.end(), [](double axis) { return std::isfinite(axis); })) {
-      refuse("the axes of an ellipsoid must be finite");
+      refuse_request("the axes of an ellipsoid must be finite");
     }
   }
   if (o.family == PointFamily::kClusters) {
-    if (o.cluster_count == 0) refuse("clusters needs one cluster or more");
-    if (!(std::isfinite(o.spread) && o.spread >= 0.0)) refuse("the spread of clusters must be 0 or more");
+    if (o.cluster_count == 0) refuse_request("clusters needs one cluster or more");
+    if (!(std::isfinite(o.spread) && o.spread >= 0.0))
+      refuse_request("the spread of clusters must be 0 or more");
   }
 }
 
@@ -279,18 +280,19 @@ PointFamily point_family(std::string_view name) {
     if (named.name == name) return named.family;
     names += (names.empty() ? "" : ", ") + std::string(named.name);
   }
-  refuse("no family '" + std::string(name) + "'; there are " + names);
+  refuse_request("no family '" + std::string(name) + "'; there are " + names);
 }
 
 std::size_t row_count(const GenerateOptions& options) {
   check_parameters(options);
   const std::size_t size = finite_size(options);
   if (options.count == 0) {
-    if (size == 0) refuse(std::string(to_string(options.family)) + " needs a number of points, -n");
+    if (size == 0) refuse_request(std::string(to_string(options.family)) + " needs a number of points, -n");
     return size;
   }
   if (options.family == PointFamily::kLattice && options.count > size) {
-    refuse("the lattice has " + std::to_string(size) + " points, asked for " + std::to_string(options.count));
+    refuse_request("the lattice has " + std::to_string(size) + " points, asked for " +
+                   std::to_string(options.count));
   }
   return options.count;
 }

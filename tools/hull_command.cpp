@@ -14,14 +14,14 @@ namespace ndhull {
 namespace {
 
 /// The options as they are written; `request` has the others.
-struct Arguments {
+struct HullArguments {
   HullRequest request;
   HullOptionSet hull;
   std::string plane_kind, format, verify;
   bool has_format = false;
 };
 
-void add_output_options(CLI::App& command, Arguments& arguments) {
+void add_output_options(CLI::App& command, HullArguments& arguments) {
   HullRequest& request = arguments.request;
   CLI::Option* const planes =
       command
@@ -68,7 +68,7 @@ PlaneKind plane_kind_of(const std::string& name) {
 }
 
 /// Reads what CLI11 left as text.
-HullRequest complete_request(const CLI::App& command, const Arguments& arguments) {
+HullRequest complete_request(const CLI::App& command, const HullArguments& arguments) {
   HullRequest request = arguments.request;
   if (request.points_path.empty() == request.shards_pattern.empty()) {
     throw Error(ErrorCode::kUsage, fmt::format("found {}, expected POINTS or --points-sharded PATTERN",
@@ -90,7 +90,7 @@ HullRequest complete_request(const CLI::App& command, const Arguments& arguments
 }  // namespace
 
 void add_hull_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<HullArguments>();
   CLI::App* const command =
       app.add_subcommand("hull", "The convex hull of points, with certified planes; prints a summary.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")

@@ -6,13 +6,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "core/error.h"
+#include "tools/exit_code.h"
 #include "tools/hull_input.h"
 #include "tools/hull_summary.h"
 #include "tools/index_writer.h"
@@ -24,18 +24,11 @@
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
 #include "tools/selection_options.h"
+#include "tools/stopwatch.h"
 #include "tools/trade_curve.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr int kVerificationFailedExitCode = 2;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   std::vector<NamedOutput> outputs;

@@ -5,10 +5,9 @@
 #include <stop_token>
 #include <thread>
 
-namespace ndhull {
+#include "tools/exit_code.h"  // IWYU pragma: export
 
-/// The exit code of a run that was interrupted.
-inline constexpr int kInterruptedExitCode = 130;
+namespace ndhull {
 
 /// Takes SIGINT as long as it lives: a thread waits for it, so that no code is interrupted half way.
 ///

@@ -16,7 +16,7 @@ namespace ndhull {
 namespace {
 
 /// The options as they are written; `request` has the others.
-struct Arguments {
+struct IntersectArguments {
   IntersectRequest request;
   std::string interior_point, max_memory, format;
 };
@@ -42,7 +42,7 @@ std::vector<double> parse_point(const std::string& text) {
   }
 }
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, IntersectArguments& arguments) {
   IntersectRequest& request = arguments.request;
   IntersectionOptions& options = request.options;
   command
@@ -87,7 +87,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--quiet", request.quiet, "no progress, no summary");
 }
 
-IntersectRequest complete_request(const CLI::App& command, const Arguments& arguments) {
+IntersectRequest complete_request(const CLI::App& command, const IntersectArguments& arguments) {
   IntersectRequest request = arguments.request;
   if (command.count("--interior-point") > 0)
     request.options.interior_point = parse_point(arguments.interior_point);
@@ -107,7 +107,7 @@ IntersectRequest complete_request(const CLI::App& command, const Arguments& argu
 }  // namespace
 
 void add_intersect_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<IntersectArguments>();
   CLI::App* const command = app.add_subcommand(
       "intersect", "What halfspaces a.x + b <= 0 have in common: vertices, volume, or why there are none.");
   command

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 
 #include "core/error.h"
@@ -14,15 +13,10 @@
 #include "tools/output_file.h"
 #include "tools/point_writer.h"
 #include "tools/progress_line.h"
+#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void check_outputs_differ(const IntersectRequest& request) {
   std::vector<std::pair<std::string_view, std::string>> outputs;
@@ -39,12 +33,6 @@ void check_outputs_differ(const IntersectRequest& request) {
                       outputs[one].second == "-" ? "standard output" : outputs[one].second));
     }
   }
-}
-
-void write_text(const std::string& path, std::string_view text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
 }
 
 void write_vertices(const IntersectRequest& request, const HalfspaceIntersection& intersection) {

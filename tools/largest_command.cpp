@@ -10,12 +10,12 @@ namespace ndhull {
 namespace {
 
 /// The options as they are written; `request` has the others.
-struct Arguments {
+struct LargestArguments {
   LargestRequest request;
   std::string method, plane_kind;
 };
 
-void add_search_options(CLI::App& command, Arguments& arguments) {
+void add_search_options(CLI::App& command, LargestArguments& arguments) {
   LargestOptions& options = arguments.request.options;
   command.add_option("-n", options.count, "facets wanted, the largest first; default 100")
       ->type_name("N")
@@ -53,7 +53,7 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
       ->check(whole_number(0));
 }
 
-void add_output_options(CLI::App& command, Arguments& arguments) {
+void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
   CLI::Option* const planes =
       command
@@ -82,7 +82,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--quiet", request.quiet, "no progress, no summary");
 }
 
-LargestRequest complete_request(const Arguments& arguments) {
+LargestRequest complete_request(const LargestArguments& arguments) {
   LargestRequest request = arguments.request;
   if (arguments.method == "hull") request.options.method = LargestMethod::kHull;
   if (arguments.method == "rays") request.options.method = LargestMethod::kRays;
@@ -94,7 +94,7 @@ LargestRequest complete_request(const Arguments& arguments) {
 }  // namespace
 
 void add_largest_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<LargestArguments>();
   CLI::App* const command =
       app.add_subcommand("largest", "The largest facets, also of a hull too big to build; prints a summary.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")

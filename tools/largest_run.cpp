@@ -6,7 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/plane_value.h"
+#include "tools/exit_code.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
 #include "tools/named_outputs.h"
@@ -21,17 +21,10 @@
 #include "tools/plane_writer.h"
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
+#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr int kVerificationFailedExitCode = 2;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
   std::vector<NamedOutput> outputs;
@@ -95,12 +88,6 @@ void write_results(const LargestRequest& request, const LargestFacets& found,
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     write_indices(request.vertices_path, vertices);
   }
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
 }
 
 }  // namespace

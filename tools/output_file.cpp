@@ -101,4 +101,10 @@ void OutputFile::commit() {
   doomed_ = DoomedFile();
 }
 
+void write_text(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 }  // namespace ndhull

@@ -52,4 +52,7 @@ class OutputFile {
   fmt::memory_buffer buffer_;
 };
 
+/// One file, written and committed.
+void write_text(const std::string& path, std::string_view text);
+
 }  // namespace ndhull

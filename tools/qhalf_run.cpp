@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -11,19 +10,17 @@
 #include "approx/halfspace_intersection.h"
 #include "core/error.h"
 #include "tools/cdd_reader.h"
+#include "tools/exit_code.h"
 #include "tools/halfspace_reader.h"
 #include "tools/interrupt.h"
 #include "tools/intersection_writer.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
 #include "tools/qhull_run.h"
+#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr int kVerificationFailedExitCode = 2;
 
 /// Fd says that the input is cdd's; files that are say so themselves.
 void check_cdd(const FileBytes& bytes, const std::string& path) {
@@ -123,7 +120,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   const Clock::time_point start = Clock::now();
   const HalfspaceIntersection region =
       intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1), options);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = seconds_since(start);
   if (region.kind != IntersectionKind::kBounded && region.kind != IntersectionKind::kLowerDimensional) {
     throw Error(ErrorCode::kBadHalfspace,
                 fmt::format("{}: found an intersection that is {}, expected a bounded one; add or remove "

@@ -11,7 +11,7 @@
 namespace ndhull {
 namespace {
 
-struct Arguments {
+struct QhullArguments {
   std::vector<std::string> words;
   unsigned threads = 0;
 
@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
-                      const std::shared_ptr<Arguments>& arguments) {
+                      const std::shared_ptr<QhullArguments>& arguments) {
   CLI::App* const command = app.add_subcommand(name, description);
   command->add_option("OPTIONS", arguments->words, "Qhull's options, in quotes or as words")->type_name("");
   command
@@ -37,7 +37,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
 }  // namespace
 
 void add_qhull_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<QhullArguments>();
   CLI::App* const command = add_command(
       app, "qhull", "The convex hull of standard input, with the options and formats of Qhull.", arguments);
   command->footer(
@@ -63,7 +63,7 @@ void add_qhull_command(CLI::App& app, int& exit_code) {
 }
 
 void add_qhalf_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<QhullArguments>();
   CLI::App* const command = add_command(
       app, "qhalf", "The intersection of halfspaces, with the options and formats of Qhull's qhalf.",
       arguments);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "approx/verify.h"
 #include "core/error.h"
 #include "tools/attached_points.h"
+#include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
@@ -20,13 +20,10 @@
 #include "tools/qhull_scaling.h"
 #include "tools/qhull_selection.h"
 #include "tools/qhull_summary.h"
+#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr int kVerificationFailedExitCode = 2;
 
 HullOptions hull_options(const QhullCommand& command, unsigned threads) {
   HullOptions options;
@@ -73,7 +70,7 @@ Result compute(const PointView& points, const QhullCommand& command, const HullO
   } else {
     result.hull = convex_hull(points, options);
   }
-  result.facts.hull_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.facts.hull_seconds = seconds_since(start);
   return result;
 }
 

@@ -56,7 +56,7 @@ class LogAxis {
   double low_, high_, from_, to_;
 };
 
-constexpr double kWidth = 720, kHeight = 460, kLeft = 84, kRight = 24, kTop = 56, kBottom = 64;
+constexpr double kPictureWidth = 720, kPictureHeight = 460, kLeft = 84, kRight = 24, kTop = 56, kBottom = 64;
 
 /// Points that a logarithmic axis can show: an exact hull's width is rounding.
 std::vector<TradePoint> visible(const std::vector<TradePoint>& curve) {
@@ -69,12 +69,12 @@ std::vector<TradePoint> visible(const std::vector<TradePoint>& curve) {
 }
 
 void write_axes(OutputFile& file, const LogAxis& across, const LogAxis& up, const std::string& unit) {
-  const double right = kWidth - kRight, bottom = kHeight - kBottom;
+  const double right = kPictureWidth - kRight, bottom = kPictureHeight - kBottom;
   for (const double value : across.ticks()) {
     const double x = across.place_of(value);
     file.print("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/>\n", x, kTop, bottom);
     file.print("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", x,
-               bottom + 18, short_number(value));
+               bottom + 18, three_digits(value));
   }
   for (const double value : up.ticks()) {
     const double y = up.place_of(value);
@@ -84,7 +84,7 @@ void write_axes(OutputFile& file, const LogAxis& across, const LogAxis& up, cons
   }
   file.print(
       "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">facet width [{}], certified</text>\n",
-      0.5 * (kLeft + right), kHeight - 20, unit);
+      0.5 * (kLeft + right), kPictureHeight - 20, unit);
   file.print(
       "<text class=\"axis\" transform=\"translate(22 {}) rotate(-90)\" "
       "text-anchor=\"middle\">facets</text>\n",
@@ -101,7 +101,7 @@ void write_picture(const std::string& path, const std::vector<TradePoint>& curve
       ".curve {{ stroke: #0b2f55; stroke-width: 2; fill: none }} circle {{ fill: #0b2f55 }}</style>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
       "<text class=\"title\" x=\"{2}\" y=\"32\">Facets against facet width</text>\n",
-      kWidth, kHeight, kLeft);
+      kPictureWidth, kPictureHeight, kLeft);
   if (!shown.empty()) {
     double narrow = HUGE_VAL, wide = 0.0, few = HUGE_VAL, many = 0.0;
     for (const TradePoint& point : shown) {
@@ -109,8 +109,8 @@ void write_picture(const std::string& path, const std::vector<TradePoint>& curve
       few = std::min(few, static_cast<double>(point.facets));
       many = std::max(many, static_cast<double>(point.facets));
     }
-    const LogAxis across(narrow / 1.2, wide * 1.2, kLeft, kWidth - kRight);
-    const LogAxis up(few / 1.4, many * 1.4, kHeight - kBottom, kTop);
+    const LogAxis across(narrow / 1.2, wide * 1.2, kLeft, kPictureWidth - kRight);
+    const LogAxis up(few / 1.4, many * 1.4, kPictureHeight - kBottom, kTop);
     write_axes(file, across, up, unit);
     file.write("<path class=\"curve\" d=\"");
     for (std::size_t i = 0; i < shown.size(); ++i)
@@ -122,7 +122,7 @@ void write_picture(const std::string& path, const std::vector<TradePoint>& curve
           "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{} facets, width {}, {:.2f} "
           "s</title></circle>\n",
           across.place_of(point.width), up.place_of(static_cast<double>(point.facets)), point.facets,
-          short_number(point.width), point.seconds);
+          three_digits(point.width), point.seconds);
   }
   file.write("</svg>\n");
   file.commit();

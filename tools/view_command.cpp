@@ -22,7 +22,7 @@
 namespace ndhull {
 namespace {
 
-struct Arguments {
+struct ViewArguments {
   HullOptionSet hull;
   std::string source_path, output_path;
   std::optional<std::string> axes, names;
@@ -73,7 +73,7 @@ void rename_columns(const std::string& names, ViewedHull& viewed) {
               fmt::format("--names: found {}, expected {}: one for each column", found, viewed.dimension()));
 }
 
-ViewWish wish_of(const Arguments& arguments, const ViewedHull& viewed) {
+ViewWish wish_of(const ViewArguments& arguments, const ViewedHull& viewed) {
   ViewWish wish;
   wish.kind = arguments.shadow ? ViewKind::kShadow : ViewKind::kSection;
   wish.highlight = arguments.highlight;
@@ -86,7 +86,7 @@ ViewWish wish_of(const Arguments& arguments, const ViewedHull& viewed) {
 }
 
 /// The hull to draw; sets the exit code to that of an interrupted run when it was one.
-ViewedHull load(const Arguments& arguments, int& exit_code) {
+ViewedHull load(const ViewArguments& arguments, int& exit_code) {
   FileBytes bytes = FileBytes::read(arguments.source_path);
   if (is_report(bytes, arguments.source_path)) return read_report(bytes, arguments.source_path);
   Interrupt interrupt;
@@ -101,7 +101,7 @@ ViewedHull load(const Arguments& arguments, int& exit_code) {
   return viewed_hull(hull, std::move(points));
 }
 
-void write_picture(const Arguments& arguments, int& exit_code) {
+void write_picture(const ViewArguments& arguments, int& exit_code) {
   const bool html = is_html(arguments.output_path);
   // Opened first: that it cannot be written is said before the hull is computed.
   OutputFile file(arguments.output_path);
@@ -112,7 +112,7 @@ void write_picture(const Arguments& arguments, int& exit_code) {
   file.commit();
 }
 
-void add_picture_options(CLI::App& command, Arguments& arguments) {
+void add_picture_options(CLI::App& command, ViewArguments& arguments) {
   command.add_option("-o,--output", arguments.output_path, "the picture: .svg, or .html that can be turned")
       ->type_name("FILE")
       ->required();
@@ -141,7 +141,7 @@ void add_picture_options(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* const command =
       app.add_subcommand("view", "A picture of a hull: shells and facet widths, in section or as a shadow.");
   command

@@ -13,8 +13,6 @@
 namespace ndhull {
 namespace {
 
-using Json = nlohmann::json;
-
 std::string file_name_of(const std::string& path) {
   return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
@@ -92,7 +90,8 @@ PointFile read_points_of_report(const std::string& path, const std::string& repo
   }
 }
 
-void check_points_are_those(const Json& input, const PointFile& points, const std::string& report_path) {
+void check_points_are_those(const nlohmann::json& input, const PointFile& points,
+                            const std::string& report_path) {
   const PointView view = points.view();
   const auto rows = input.at("points").get<std::size_t>();
   const auto dimension = input.at("dimension").get<std::size_t>();
@@ -109,8 +108,8 @@ void require_length(const std::vector<double>& values, std::size_t size) {
 }
 
 /// Reads one line of the list. Throws what the JSON library and require_length do.
-void append_facet(const Json& facet, const std::vector<double>& reference, const CubeLength& cube_length,
-                  std::size_t point_count, ViewedHull& viewed) {
+void append_facet(const nlohmann::json& facet, const std::vector<double>& reference,
+                  const CubeLength& cube_length, std::size_t point_count, ViewedHull& viewed) {
   CentredFacets& facets = viewed.facets;
   const auto normal = facet.at("normal").get<std::vector<double>>();
   require_length(normal, facets.dimension);
@@ -126,7 +125,7 @@ void append_facet(const Json& facet, const std::vector<double>& reference, const
   facets.inner.push_back(inner * scale);
   facets.widths.push_back(outer - inner);
   facets.areas.push_back(facet.at("area").is_null() ? 0.0 : facet.at("area").get<double>());
-  for (const Json& id : facet.at("vertices")) {
+  for (const nlohmann::json& id : facet.at("vertices")) {
     const auto vertex = id.get<std::uint32_t>();
     if (vertex >= point_count) throw std::length_error("a vertex that is no point");
     viewed.facet_vertices.values.push_back(vertex);
@@ -141,8 +140,8 @@ void append_facet(const Json& facet, const std::vector<double>& reference, const
                           display_name(path), reason));
 }
 
-ViewedHull read_fields(const Json& report, const std::string& path) {
-  const Json& input = report.at("input");
+ViewedHull read_fields(const nlohmann::json& report, const std::string& path) {
+  const nlohmann::json& input = report.at("input");
   if (report.find("facet_list") == report.end()) {
     throw Error(ErrorCode::kUsage,
                 fmt::format("{}: found a report without facets, expected facet_list; write it with "
@@ -162,7 +161,7 @@ ViewedHull read_fields(const Json& report, const std::string& path) {
   const auto reference = report.at("reference").get<std::vector<double>>();
   require_length(facets.centre, facets.dimension);
   require_length(reference, facets.dimension);
-  for (const Json& equation : report.value("subspace_equations", Json::array())) {
+  for (const nlohmann::json& equation : report.value("subspace_equations", nlohmann::json::array())) {
     const auto normal = equation.at("normal").get<std::vector<double>>();
     require_length(normal, facets.dimension);
     facets.subspace_equations.insert(facets.subspace_equations.end(), normal.begin(), normal.end());
@@ -181,7 +180,7 @@ ViewedHull read_fields(const Json& report, const std::string& path) {
                     display_name(path), report.at("facet_list").size(), report.at("facets").dump()));
   }
   const CubeLength cube_length(viewed.extents, facets.subspace_equations);
-  for (const Json& facet : report.at("facet_list")) {
+  for (const nlohmann::json& facet : report.at("facet_list")) {
     append_facet(facet, reference, cube_length, viewed.points.view().rows, viewed);
   }
   viewed.vertices = vertices_in(viewed.facet_vertices);
@@ -215,11 +214,11 @@ bool is_report(const FileBytes& bytes, const std::string& path) {
 }
 
 ViewedHull read_report(const FileBytes& bytes, const std::string& path) {
-  const Json report = Json::parse(bytes.view(), nullptr, false);
+  const nlohmann::json report = nlohmann::json::parse(bytes.view(), nullptr, false);
   if (report.is_discarded() || !report.is_object()) fail_report(path, "not one JSON object");
   try {
     return read_fields(report, path);
-  } catch (const Json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     fail_report(path, error.what());
   } catch (const std::length_error& error) {
     fail_report(path, error.what());

@@ -27,7 +27,7 @@ std::vector<Tick> round_ticks(double low, double high, std::size_t count) {
   return ticks;
 }
 
-std::string short_number(double value) { return fmt::format("{:.3g}", value); }
+std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 
 std::string hex(const Colour& colour) {
   const auto byte = [](double part) {
@@ -69,7 +69,7 @@ Colour ColourScale::colour_at(double place) {
 }
 
 std::vector<Tick> ColourScale::ticks() const {
-  if (is_constant()) return {{low_, short_number(low_)}};
+  if (is_constant()) return {{low_, three_digits(low_)}};
   return round_ticks(low_, high_, 5);
 }
 

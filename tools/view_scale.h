@@ -19,7 +19,7 @@ struct Tick {
 std::vector<Tick> round_ticks(double low, double high, std::size_t count);
 
 /// A number for people: three digits, and powers of ten as in 1.2e-14.
-std::string short_number(double value);
+std::string three_digits(double value);
 
 /// Red, green, blue in 0 .. 1.
 using Colour = std::array<double, 3>;

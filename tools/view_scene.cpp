@@ -159,8 +159,8 @@ std::string unit_text(const ViewedHull& viewed) { return viewed.is_unit_cube() ?
 
 std::string facet_tip(const ViewedHull& viewed, std::uint32_t facet, std::size_t mark) {
   std::string tip = fmt::format("facet {}\nwidth {} {}\narea {} [input^{}]", facet,
-                                short_number(viewed.facets.widths[facet]), unit_text(viewed),
-                                short_number(viewed.facets.areas[facet]), viewed.rank - 1);
+                                three_digits(viewed.facets.widths[facet]), unit_text(viewed),
+                                three_digits(viewed.facets.areas[facet]), viewed.rank - 1);
   if (mark == 1) tip += "\nthe largest facet";
   if (mark > 1) tip += fmt::format("\nnumber {} of the largest facets", mark);
   return tip;
@@ -188,7 +188,7 @@ void colour_section(SceneShell& shell, const ViewedHull& viewed, const ColourSca
 void colour_shadow(SceneShell& shell, const std::vector<double>& margins, const ColourScale& scale) {
   for (SceneFace& face : shell.faces) {
     face.colour = scale.colour_of(margins[face.source]);
-    face.tip = fmt::format("the outer shell is {} % further out", short_number(100.0 * margins[face.source]));
+    face.tip = fmt::format("the outer shell is {} % further out", three_digits(100.0 * margins[face.source]));
   }
 }
 
@@ -243,7 +243,7 @@ void add_texts(const ViewedHull& viewed, const ViewWish& wish, const DrawingAxes
     facets += fmt::format(", {} in the section", with_commas(faces));
   scene.facts.push_back(fmt::format("{} points in {}-d \u00B7 {} \u00B7 widest facet {} {}{}",
                                     with_commas(viewed.points.view().rows), viewed.dimension(), facets,
-                                    short_number(widest), unit_text(viewed),
+                                    three_digits(widest), unit_text(viewed),
                                     viewed.status == "complete" ? "" : " \u00B7 status " + viewed.status));
 }
 

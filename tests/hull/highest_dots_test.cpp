@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/fused_dot.h"
+
 namespace ndhull {
 namespace {
 
@@ -15,12 +17,6 @@ struct Products {
   std::size_t dimension;
   std::vector<double> points, normals;
 };
-
-double dot(const double* a, const double* b, std::size_t dimension) {
-  double sum = a[0] * b[0];
-  for (std::size_t k = 1; k < dimension; ++k) sum = std::fma(a[k], b[k], sum);
-  return sum;
-}
 
 /// Points on a sphere of radius 1, facets through `dimension` of them only in name: the normals are random,
 /// the "own vertices" the highest points along them. `column_scale` multiplies column k by its k-th power.
@@ -51,7 +47,8 @@ void expect_all_products(const Products& products, std::size_t own_count) {
   for (std::size_t facet = 0; facet < facets; ++facet) {
     std::vector<double> dots;
     for (std::size_t row = 0; row < count; ++row) {
-      dots.push_back(dot(&products.normals[facet * dimension], &products.points[row * dimension], dimension));
+      dots.push_back(
+          fused_dot(&products.normals[facet * dimension], &products.points[row * dimension], dimension));
     }
     std::sort(dots.begin(), dots.end(), std::greater<>());
     expected.push_back(dots[0]);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/fused_dot.h"
+
 namespace ndhull {
 namespace {
 
@@ -15,12 +17,6 @@ struct Cloud {
   std::size_t dimension;
   std::vector<double> points, normals;
 };
-
-double dot(const double* a, const double* b, std::size_t dimension) {
-  double sum = a[0] * b[0];
-  for (std::size_t k = 1; k < dimension; ++k) sum = std::fma(a[k], b[k], sum);
-  return sum;
-}
 
 enum class Shape { kSphere, kBall, kFarSphere, kFlat };
 
@@ -61,14 +57,14 @@ void expect_all_products(const Cloud& cloud) {
   std::vector<double> largest(directions, -HUGE_VAL);
   for (std::size_t i = 0; i < directions; ++i)
     for (std::size_t row = 0; row < count; ++row)
-      largest[i] =
-          std::max(largest[i], dot(&cloud.normals[i * dimension], &cloud.points[row * dimension], dimension));
+      largest[i] = std::max(
+          largest[i], fused_dot(&cloud.normals[i * dimension], &cloud.points[row * dimension], dimension));
   std::vector<FurthestPoint> furthest(directions, FurthestPoint{-HUGE_VAL});
   find_furthest(tree, cloud.normals, furthest);
   for (std::size_t i = 0; i < directions; ++i) {
     EXPECT_EQ(furthest[i].dot, largest[i]);
     ASSERT_LT(furthest[i].row, count);
-    EXPECT_EQ(dot(&cloud.normals[i * dimension], &cloud.points[furthest[i].row * dimension], dimension),
+    EXPECT_EQ(fused_dot(&cloud.normals[i * dimension], &cloud.points[furthest[i].row * dimension], dimension),
               largest[i]);
   }
   // Known to be attained, exactly or a hair below.
@@ -103,7 +99,7 @@ TEST(PointTreeLaw, AllPointsAboveAreFound) {
       const std::span<const double> normal(cloud.normals.data(), dimension);
       std::vector<double> products;
       for (std::size_t row = 0; row < 3000; ++row)
-        products.push_back(dot(normal.data(), &cloud.points[row * dimension], dimension));
+        products.push_back(fused_dot(normal.data(), &cloud.points[row * dimension], dimension));
       std::vector<double> sorted = products;
       std::sort(sorted.begin(), sorted.end());
       for (const std::size_t below : {0u, 1u, 1500u, 2999u}) {
