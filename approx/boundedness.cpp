@@ -1,6 +1,6 @@
 #include "approx/boundedness.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,5 +1,6 @@
 #include "approx/cone_walk.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>

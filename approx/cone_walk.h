@@ -14,7 +14,7 @@
 // 1970) by Dinkelbach's iteration for the least ratio (Management Science 13, 1967).
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

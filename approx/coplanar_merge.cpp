@@ -1,6 +1,6 @@
 #include "approx/coplanar_merge.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

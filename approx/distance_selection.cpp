@@ -1,5 +1,5 @@
 // The greedy half of approx/outer_distance.h: planes that keep the furthest vertex near.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

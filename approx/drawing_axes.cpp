@@ -2,7 +2,7 @@
 // which is inside the points, so data far from the origin lose no digits.
 #include "approx/drawing_axes.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "approx/orthonormal.h"
 
 namespace ndhull {
 namespace {
@@ -58,9 +60,7 @@ Eigen::MatrixXd direction_map(const Frame& frame, const std::vector<double>& sca
   Eigen::MatrixXd spanned = Eigen::Map<const Rows>(frame.basis.data(), rank, dimension).transpose();
   spanned = (scales.cwiseInverse().asDiagonal() * spanned).eval();
   for (Index column = 0; column < rank; ++column) spanned.col(column).normalize();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(spanned);
-  const Eigen::MatrixXd axes = factors.householderQ() * Eigen::MatrixXd::Identity(dimension, rank);
-  return map * scales.asDiagonal() * axes;
+  return map * scales.asDiagonal() * orthonormal_columns(spanned, rank);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "approx/frame_planes.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "approx/orthonormal.h"
 #include "core/blocks.h"
 
 namespace ndhull {
@@ -67,8 +69,7 @@ std::vector<double> find_subspace_equations(const Frame& frame) {
   Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(columns, columns);
   if (rank > 0) {
     const Eigen::Map<const Eigen::MatrixXd> directions(frame.basis.data(), columns, rank);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(directions);
-    complement = factors.householderQ() * Eigen::MatrixXd::Identity(columns, columns);
+    complement = orthonormal_columns(directions, columns);
   }
   const Eigen::Map<const Eigen::VectorXd> centre(frame.centre.data(), columns);
   for (Eigen::Index row = rank; row < columns; ++row) {

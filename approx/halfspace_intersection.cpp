@@ -9,7 +9,7 @@
 
 #include <tbb/task_arena.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,6 +17,7 @@
 
 #include "approx/halfspace_region.h"
 #include "approx/halfspace_set.h"
+#include "approx/orthonormal.h"
 #include "approx/plane_polytope.h"
 #include "approx/polytope_vertices.h"
 #include "core/error.h"
@@ -102,8 +103,7 @@ class Intersector {
     result_.equalities = region_.equalities;
     if (result_.rank == result_.dimension) return;
     const Index dimension = region_.directions.rows(), rank = region_.directions.cols();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(region_.directions);
-    const Eigen::MatrixXd q = factors.householderQ() * Eigen::MatrixXd::Identity(dimension, dimension);
+    const Eigen::MatrixXd q = orthonormal_columns(region_.directions, dimension);
     for (Index column = rank; column < dimension; ++column) {
       const VectorXd normal = q.col(column);
       result_.equations.insert(result_.equations.end(), normal.begin(), normal.end());

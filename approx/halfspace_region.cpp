@@ -1,6 +1,6 @@
 #include "approx/halfspace_region.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "approx/hull_distance.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 

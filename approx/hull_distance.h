@@ -1,7 +1,7 @@
 // How far points are from the hull of a few others: the nearest point, with proven bounds on both sides.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

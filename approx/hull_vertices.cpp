@@ -1,5 +1,5 @@
 // Which points of the merged hull are vertices.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "approx/coplanar_merge.h"

@@ -1,6 +1,6 @@
 #include "approx/largest_search.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>

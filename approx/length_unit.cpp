@@ -1,8 +1,9 @@
 #include "approx/length_unit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "approx/frame_planes.h"
+#include "approx/orthonormal.h"
 
 namespace ndhull {
 namespace {
@@ -26,9 +27,7 @@ LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
     spanned.row(static_cast<Eigen::Index>(k)) *= extents_[k] > 0.0 ? 1.0 / extents_[k] : 0.0;
   }
   for (Eigen::Index column = 0; column < spanned.cols(); ++column) spanned.col(column).normalize();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(spanned);
-  const RowMatrix thin =
-      (factors.householderQ() * Eigen::MatrixXd::Identity(spanned.rows(), spanned.cols())).transpose();
+  const RowMatrix thin = orthonormal_columns(spanned, spanned.cols()).transpose();
   directions_.assign(thin.data(), thin.data() + thin.size());
 }
 
@@ -62,9 +61,7 @@ std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit) 
         lengths[i] *
         Eigen::Map<const Eigen::VectorXd>(column.data(), static_cast<Eigen::Index>(column.size()));
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(gradients);
-  const RowMatrix upper =
-      factors.matrixQR().topRows(static_cast<Eigen::Index>(rank)).triangularView<Eigen::Upper>();
+  const RowMatrix upper = upper_factor(gradients);
   return {upper.data(), upper.data() + upper.size()};
 }
 

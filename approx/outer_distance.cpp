@@ -1,6 +1,6 @@
 #include "approx/outer_distance.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

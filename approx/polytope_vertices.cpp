@@ -1,6 +1,7 @@
 #include "approx/polytope_vertices.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

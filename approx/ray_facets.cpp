@@ -3,12 +3,14 @@
 // below the plane in input units the area is rank cone / h.
 #include "approx/ray_facets.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
+#include "approx/orthonormal.h"
 
 namespace ndhull {
 namespace {
@@ -52,8 +54,7 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   const auto rank = static_cast<Index>(points.rank);
   const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), rank);
   // The first column of Q is along the normal, the others span the plane.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(plane);
-  const Eigen::MatrixXd axes = Eigen::MatrixXd(factors.householderQ()).rightCols(rank - 1);
+  const Eigen::MatrixXd axes = orthonormal_columns(plane, rank).rightCols(rank - 1);
   const Rows all = rows_of(points, facet.points);
   const Rows within = (all.rowwise() - all.row(0)) * axes;
   InPlane result;

@@ -1,7 +1,7 @@
 // Facets as walks find them: their points, planes, areas and ridges.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

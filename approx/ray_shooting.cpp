@@ -1,6 +1,7 @@
 #include "approx/ray_shooting.h"
 
 #include <tbb/parallel_for.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

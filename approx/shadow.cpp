@@ -3,7 +3,7 @@
 // Any feasible lambda is a bound, so a program that was not solved to its end costs sharpness only.
 #include "approx/shadow.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "approx/subspace.h"
 
-#include <Eigen/QR>
+#include "approx/orthonormal.h"
 
 namespace ndhull {
 
@@ -10,9 +10,7 @@ Eigen::MatrixXd subspace_directions(std::size_t dimension, std::span<const doubl
   if (equations.empty()) return Eigen::MatrixXd::Identity(columns, columns);
   const auto count = static_cast<Eigen::Index>(equations.size() / (dimension + 1));
   const Eigen::Map<const RowMatrix> rows(equations.data(), count, columns + 1);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(rows.leftCols(columns).transpose());
-  const Eigen::MatrixXd q = factors.householderQ() * Eigen::MatrixXd::Identity(columns, columns);
-  return q.rightCols(columns - count);
+  return orthonormal_columns(rows.leftCols(columns).transpose(), columns).rightCols(columns - count);
 }
 
 }  // namespace ndhull

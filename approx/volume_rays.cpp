@@ -1,6 +1,6 @@
 #include "approx/volume_rays.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "approx/volume_selection.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
