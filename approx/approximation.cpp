@@ -40,10 +40,9 @@ constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 constexpr std::size_t kFewLeftOut = 1 << 17, kFewLeftOutForCount = 4096;
 /// Facets from which on neighbours are not tried again for what fits into one slab.
 constexpr std::size_t kFewFacets = 256;
-/// Rounds of smaller slabs and more growth before the best so far is taken.
-constexpr int kRounds = 24;
-/// Of a target number, in which the fits see more of the points left out.
-constexpr int kCountRounds = 5;
+/// Rounds of smaller slabs and more growth before the best so far is taken; of a target number, in which the
+/// fits see more of the points left out; of putting back what is above W.
+constexpr int kRounds = 24, kCountRounds = 5, kSearchRounds = 96;
 
 }  // namespace
 
@@ -72,6 +71,7 @@ void Approximation::locate_left_out(double outside_width) {
 void Approximation::grow_outside_width() {
   const double width = lengths_.outside_width;
   hull_.chosen.outside_width = width;
+  if (width > 0.0) growth_.grow_from_some();  // a search over all follows
   bool has_finished = growth_.grow_to(width, 0, 0.0);
   if (has_finished && width > 0.0) {
     // Where most points are inside, proving that leaves few to search. Merging has to know where they are.
@@ -84,7 +84,7 @@ void Approximation::grow_outside_width() {
     }
     OutsideSearch search(growth_, std::move(points));
     bool has_grown = false;
-    for (int round = 0; round < kRounds && has_finished && search.put_back_above(width); ++round) {
+    for (int round = 0; round < kSearchRounds && has_finished && search.put_back_above(width); ++round) {
       has_finished = growth_.grow_to(width, 0, 0.0);
       has_grown = true;
     }

@@ -13,6 +13,9 @@ constexpr double kWellInside = 1e-9;
 /// Points from which on an early proof pays; of those that are looked at first, one of so many has to be
 /// inside.
 constexpr std::size_t kManyPoints = 4096, kLookedAtFirst = 512, kWorthProving = 8;
+/// A hull of more simplices than this has vertices that some of the points do not stand for. So has one that
+/// one of so many points is inside.
+constexpr std::size_t kManyRowsFromSome = 1 << 14, kHardlyAny = 64;
 /// The rounding of the frame's coordinates, and of a gauge computed of them, is far below this. [ratio]
 constexpr double kFrameRounding = 1e-14;
 /// Plane-times-point products that are worth certifying points near the hull one by one: some twenty seconds
@@ -90,6 +93,7 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
 /// The furthest point's height whenever the hull has grown by half. An earlier height is never exceeded: the
 /// hull only grows.
 void CertifiedGrowth::record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices) {
+  if (work_.options.stride > 1) return;  // points that are not grown from may be further
   std::vector<GrowthRecord>& curve = hull_.statistics.growth_curve;
   if (!curve.empty() && simplices < curve.back().simplices + curve.back().simplices / 2) return;
   if (!curve.empty()) furthest = std::min(furthest, curve.back().furthest);
@@ -118,11 +122,31 @@ void CertifiedGrowth::start() {
   work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
-  const Clock::time_point begin = Clock::now();
   ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
+  begin();
+}
+
+void CertifiedGrowth::begin() {
+  const Clock::time_point start = Clock::now();
   start_growth(work_, frame_.simplex);
-  detail("first partition", begin);
+  detail("first partition", start);
   if (points_.rows > kManyPoints) prove_early();
+}
+
+void CertifiedGrowth::grow_from_some() {
+  constexpr std::size_t kWorthSome = 1 << 15, kStride = 16;
+  if (points_.rows >= kWorthSome) work_.options.stride = kStride;
+}
+
+void CertifiedGrowth::begin_with_all() {
+  work_.options.stride = 1;
+  work_.free_count = 0;
+  work_.points_outside = 0;
+  work_.pending.clear();
+  work_.counters = GrowthCounters{};
+  proven_.clear();  // inside a hull that is thrown away
+  proven_count_ = 0;
+  begin();
 }
 
 void CertifiedGrowth::grow_exactly() {
@@ -149,11 +173,21 @@ void CertifiedGrowth::grow_exactly() {
 
 bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, double enough_height) {
   work_.options.outside_width = outside_width;
-  if (!has_started_) start();
+  const bool is_first = !has_started_;
+  if (is_first) start();
   const Clock::time_point begin = Clock::now();
-  work_.options.pause_rows = enough_rows;
-  work_.options.pause_height = enough_height;
-  const GrowthStop stop = grow(work_);
+  GrowthStop stop = GrowthStop::kPaused;
+  if (is_first && work_.options.stride > 1) {
+    work_.options.pause_rows = kManyRowsFromSome;
+    stop = grow(work_);
+    work_.options.pause_rows = 0;
+    if (stop == GrowthStop::kPaused) begin_with_all();
+  }
+  if (stop == GrowthStop::kPaused) {
+    work_.options.pause_rows = enough_rows;
+    work_.options.pause_height = enough_height;
+    stop = grow(work_);
+  }
   work_.options.pause_rows = 0;
   work_.options.pause_height = HUGE_VAL;
   hull_.status = status_of(stop);
@@ -274,6 +308,7 @@ void CertifiedGrowth::prove_early() {
     some.push_back(candidates[i]);
   const std::vector<LocatedPoint> first = try_points(some);
   const auto inside = static_cast<std::size_t>(std::count_if(first.begin(), first.end(), is_inside));
+  if (work_.options.stride > 1 && inside * kHardlyAny >= some.size()) return begin_with_all();
   if (inside * kWorthProving >= some.size()) {
     proven_.assign(points_.rows, false);
     for (const LocatedPoint& point : try_points(candidates)) {

@@ -38,6 +38,10 @@ class CertifiedGrowth {
   /// Returns true in the first case.
   bool grow_to(double outside_width, std::uint64_t enough_rows, double enough_height);
 
+  /// Before growth: where points are many and hardly any is inside, some are grown from, spread evenly. The
+  /// others are left out wherever they are, until they are put back.
+  void grow_from_some();
+
   /// Proves for all points that are no vertices where they are; what is not well inside becomes left_out().
   /// Gauges may be this much too large. [ratio]
   void locate_left_out(double useful_slack);
@@ -78,6 +82,8 @@ class CertifiedGrowth {
 
  private:
   void start();
+  void begin();
+  void begin_with_all();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);

@@ -19,6 +19,9 @@ namespace {
 /// take the extremes of among the part of the points that are furthest out.
 constexpr std::size_t kSample = 1 << 14;
 constexpr std::size_t kDirections = 256, kFurthestPart = 64;
+/// Points of the sample whose hull of so many simplices, for each dimension, holds none of them where most
+/// points are vertices: on spheres.
+constexpr std::size_t kFirstSample = 2048, kFirstRows = 128;
 /// Points that are located at a time: what membership takes for one block.
 constexpr std::size_t kLocatedAtATime = 512;
 /// A point this far inside the hull is dropped. [ratio] As CertifiedGrowth has it.
@@ -79,7 +82,7 @@ class Reduction {
   }
 
   std::vector<std::uint32_t> run(const std::function<bool()>& is_late) {
-    if (!find_ranges() || !start()) return all_candidates();
+    if (!find_ranges() || holds_none() || !start()) return all_candidates();
     const std::size_t most_rows = std::min(kMostRows, shards_.rows / kPointsForARow);
     std::size_t left = shards_.rows, rows = most_rows / kMoreRows;
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -148,21 +151,51 @@ class Reduction {
     return !shards_.any(std::count(is_finite.begin(), is_finite.end(), 0) != 0);
   }
 
-  /// The frame and the first simplex, of a sample; false when it spans less than all dimensions.
-  bool start() {
-    const std::size_t dimension = shards_.dimension, step = std::max<std::size_t>(1, shards_.rows / kSample);
+  /// Some `count` points, evenly spread over the rows.
+  std::vector<double> take_sample(std::size_t count) const {
+    const std::size_t dimension = shards_.dimension, step = std::max<std::size_t>(1, shards_.rows / count);
     std::vector<double> sample;
-    {
-      RowCopier copier(shards_);
-      for (const PointShard& part : shards_.parts) {
-        const std::size_t end = part.first_row + part.points.rows;
-        for (std::size_t row = (part.first_row + step - 1) / step * step; row < end; row += step) {
-          sample.resize(sample.size() + dimension);
-          copier.copy(row, sample.data() + sample.size() - dimension);
-        }
+    RowCopier copier(shards_);
+    for (const PointShard& part : shards_.parts) {
+      const std::size_t end = part.first_row + part.points.rows;
+      for (std::size_t row = (part.first_row + step - 1) / step * step; row < end; row += step) {
+        sample.resize(sample.size() + dimension);
+        copier.copy(row, sample.data() + sample.size() - dimension);
       }
     }
-    sample = shards_.all_gather(std::move(sample));
+    return shards_.all_gather(std::move(sample));
+  }
+
+  /// Is no point of a small sample inside a small hull of it? Then a larger hull holds hardly any either.
+  bool holds_none() const {
+    const std::size_t dimension = shards_.dimension;
+    if (dimension < 2 || dimension > kMaxRank) return false;
+    const std::vector<double> sample = take_sample(kFirstSample);
+    const PointView view = PointView::row_major(sample.data(), sample.size() / dimension, dimension);
+    const Frame frame = fit_frame(view);
+    if (frame.rank < dimension) return false;
+    std::vector<double> coordinates(sample.size() + kPadding);
+    map_points(view, frame, coordinates.data());
+    GrowthWork work;
+    work.rank = dimension;
+    work.point_count = view.rows;
+    work.points = coordinates.data();
+    work.options.seed = work_.options.seed;
+    work.options.pause_rows = kFirstRows * dimension;
+    start_growth(work, frame.simplex);
+    grow(work);
+    std::vector<PointId> ids;
+    for (std::uint32_t row = 0; row < view.rows; ++row) ids.push_back(PointId{row});
+    const HullBall ball = find_ball(dimension, coordinates.data(), view.rows, frame.simplex);
+    const std::vector<LocatedPoint> located = try_inside(work.complex, coordinates.data(), ball, ids);
+    return std::none_of(located.begin(), located.end(),
+                        [](const LocatedPoint& point) { return point.gauge < -kWellInside; });
+  }
+
+  /// The frame and the first simplex, of a sample; false when it spans less than all dimensions.
+  bool start() {
+    const std::size_t dimension = shards_.dimension;
+    const std::vector<double> sample = take_sample(kSample);
     const PointView view = PointView::row_major(sample.data(), sample.size() / dimension, dimension);
     frame_ = fit_frame(view);
     if (frame_.rank < dimension || dimension < 2 || dimension > kMaxRank) return false;

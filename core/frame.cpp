@@ -95,6 +95,11 @@ Furthest reduce(Matrix& residuals, const Eigen::RowVectorXd& direction) {
   return furthest;
 }
 
+/// Of more points than this some are enough for a simplex, if no dual vertex of it times any point is longer
+/// than that.
+constexpr std::size_t kManyPoints = 1 << 15, kSample = 1 << 12;
+constexpr double kSampleShape = 200.0;
+
 /// `tolerance`: a distance from the span below this is the rounding of the input.
 GreedySimplex choose_simplex(Matrix residuals, double tolerance) {
   const Eigen::Index dimension = residuals.cols();
@@ -128,13 +133,13 @@ GreedySimplex choose_simplex(Matrix residuals, double tolerance) {
   return simplex;
 }
 
-/// Largest product of a dual vertex of the simplex with a point of it: 1 / relative height of the worst
-/// facet.
-double worst_shape(const Matrix& vertices) {
+/// Largest product of a dual vertex of the simplex with a point of it, or of length `reach` if that is more.
+/// Of its own points: 1 / relative height of the worst facet.
+double worst_shape(const Matrix& vertices, double reach = 0.0) {
   const Eigen::Index rank = vertices.cols();
   const Eigen::RowVectorXd mean = vertices.colwise().mean();
   const Matrix centred = vertices.rowwise() - mean;
-  const double reach = centred.rowwise().norm().maxCoeff();
+  reach = std::max(reach, centred.rowwise().norm().maxCoeff());
   double worst = 0.0;
   for (Eigen::Index omitted = 0; omitted <= rank; ++omitted) {
     Matrix facet(rank, rank);
@@ -232,18 +237,36 @@ Frame fit_frame(const PointView& points) {
     input_rounding = std::max(
         input_rounding, scale[at] * std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k])));
   }
-  GreedySimplex simplex;
-  {
-    Matrix scaled(points.rows, dimension);
-    for (std::size_t row = 0; row < points.rows; ++row) {
+  const double tolerance = 8.0 * static_cast<double>(dimension) * kRoundoff * (1.0 + input_rounding);
+  // Of every step-th point.
+  const auto simplex_of = [&](std::size_t step) {
+    Matrix scaled((points.rows + step - 1) / step, dimension);
+    for (std::size_t row = 0; row < points.rows; row += step) {
       for (std::size_t k = 0; k < dimension; ++k) {
         const auto at = static_cast<Eigen::Index>(k);
-        scaled(static_cast<Eigen::Index>(row), at) = (points.at(row, k) - middle[at]) * scale[at];
+        scaled(static_cast<Eigen::Index>(row / step), at) = (points.at(row, k) - middle[at]) * scale[at];
       }
     }
-    const double tolerance = 8.0 * static_cast<double>(dimension) * kRoundoff * (1.0 + input_rounding);
-    simplex = choose_simplex(std::move(scaled), tolerance);
-  }
+    GreedySimplex chosen = choose_simplex(std::move(scaled), tolerance);
+    for (PointId& id : chosen.points) id.value *= static_cast<std::uint32_t>(step);
+    return chosen;
+  };
+  const auto is_good = [&](const GreedySimplex& chosen) {
+    if (chosen.points.size() <= dimension) return false;
+    Matrix vertices(dimension + 1, dimension);
+    for (std::size_t row = 0; row <= dimension; ++row) {
+      for (std::size_t k = 0; k < dimension; ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        vertices(static_cast<Eigen::Index>(row), at) =
+            (points.at(chosen.points[row].value, k) - middle[at]) * scale[at];
+      }
+    }
+    // No scaled coordinate is more than 1 from the middle.
+    return worst_shape(vertices, 2.0 * std::sqrt(static_cast<double>(dimension))) <= kSampleShape;
+  };
+  GreedySimplex simplex;
+  if (points.rows > kManyPoints) simplex = simplex_of(points.rows / kSample);
+  if (!is_good(simplex)) simplex = simplex_of(1);
   frame.simplex = simplex.points;
   frame.rank = simplex.points.size() - 1;
 

@@ -103,6 +103,8 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
     double height;  // 0: inside
   };
   std::vector<Place> places(std::min(kChunk, work.point_count));
+  const std::size_t stride = work.options.stride;
+  const auto id_of = [stride](std::size_t i) { return static_cast<std::uint32_t>(i * stride); };
   const auto place_of = [&](std::uint32_t id) -> Place {
     const double* point = work.points + std::size_t{id} * work.rank;
     double best = -HUGE_VAL;
@@ -118,13 +120,14 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
     if (best <= 2.0 * work.options.shift) return {0, 0.0};
     return {best_row, height_above(work, best_row, best)};
   };
-  for (std::size_t chunk = 0; chunk < work.point_count; chunk += kChunk) {
-    const std::size_t count = std::min(kChunk, work.point_count - chunk);
+  const std::size_t wanted = (work.point_count + stride - 1) / stride;
+  for (std::size_t chunk = 0; chunk < wanted; chunk += kChunk) {
+    const std::size_t count = std::min(kChunk, wanted - chunk);
     for_each_block(count, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) places[i] = place_of(static_cast<std::uint32_t>(chunk + i));
+      for (std::size_t i = begin; i < end; ++i) places[i] = place_of(id_of(chunk + i));
     });
     for (std::size_t i = 0; i < count; ++i) {
-      const auto id = static_cast<std::uint32_t>(chunk + i);
+      const std::uint32_t id = id_of(chunk + i);
       if (places[i].height > least && !is_vertex[id]) push_outside(work, id, places[i].row, places[i].height);
     }
   }

@@ -31,6 +31,9 @@ struct GrowthOptions {
   /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are. May be
   /// raised between calls of `grow`; what was left out before stays out.
   double outside_width = 0.0;
+  /// Of the points only every so-manieth is put into outside sets at first; the others are left out until
+  /// push_outside is called for them.
+  std::size_t stride = 1;
   /// rank x rank, row-major: |R a| is the gradient of the gauge above plane a, per length unit, so that a
   /// distance is a gauge / |R a|. Empty: how far outside a point is goes by its gauge, and no width may be
   /// set.

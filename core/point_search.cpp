@@ -21,7 +21,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatTag = hn::CappedTag<float, PointTree::kSize>;
-using DoubleTag = hn::CappedTag<double, PointTree::kSize>;
 
 /// One search: a direction, of length 1 in the cones' coordinates, and the best so far.
 template <std::size_t D>
@@ -32,7 +31,8 @@ class Search {
         width_(D > 0 ? D : tree.dimension()),
         scaled_(width_),
         bounds_(tree.clusters().stride),
-        along_(bounds_.size()) {
+        along_(bounds_.size()),
+        lately_(kLately * width_) {
     // Roundings in single precision, each at most 2^-24 of the reach: of the direction, the axes, the sums
     // and what is made of them. The angles of the cones have room for what a root makes of theirs.
     margin_ = static_cast<float>(tree.reach() * static_cast<double>(width_ + 12) * 0x1p-23);
@@ -42,21 +42,23 @@ class Search {
     normal_ = normal;
     scale();
     best_ = known;
-    group_ = kNone;
+    place_ = kNone;
     raise_threshold();
     const Cones& clusters = tree_.clusters();
+    look_at_latest();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
     const auto search = [this](std::size_t group) { search_group(group); };
-    const auto live = static_cast<std::ptrdiff_t>(clusters.count);
-    for (std::size_t i = 0; i < kFirst && i < clusters.count; ++i) {
-      const auto nearest =
-          static_cast<std::size_t>(std::max_element(along_.begin(), along_.begin() + live) - along_.begin());
+    const std::size_t first = place_ == kNone ? kFirst : 1;
+    for (std::size_t i = 0; i < first && i < clusters.count; ++i) {
+      const std::size_t nearest = nearest_cluster();
       search_cluster(nearest, search);
       along_[nearest] = -HUGE_VALF;
       bounds_[nearest] = -HUGE_VALF;
     }
     search_clusters(search);
-    return {best_, group_ == kNone ? FurthestPoint::kNoRow : row_of_best()};
+    if (place_ == kNone) return {best_, FurthestPoint::kNoRow};
+    remember(place_);
+    return {best_, tree_.order()[place_]};
   }
 
   void collect(const double* normal, double least, std::vector<FurthestPoint>& found) {
@@ -67,11 +69,10 @@ class Search {
     const Cones& clusters = tree_.clusters();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
     search_clusters([&](std::size_t group) {
-      double products[PointTree::kSize];
-      store_dots(group, products);
-      const std::size_t first = group * PointTree::kSize;
-      for (std::size_t i = 0; i < PointTree::kSize && first + i < tree_.point_count(); ++i)
-        if (products[i] >= least) found.push_back({products[i], tree_.order()[first + i]});
+      for_each_near(group, [&](std::size_t place) {
+        const double product = product_with(place);
+        if (product >= least) found.push_back({product, tree_.order()[place]});
+      });
     });
   }
 
@@ -79,6 +80,51 @@ class Search {
   static constexpr std::size_t kNone = ~std::size_t{0};
   /// Clusters whose axes are nearest to the direction: one of them mostly holds the furthest point.
   static constexpr std::size_t kFirst = 4;
+
+  /// The points that were furthest along the latest directions, whole vectors of them: directions that come
+  /// one after the other are often near each other.
+  static constexpr std::size_t kLately = 4 * PointTree::kSize;
+
+  void remember(std::size_t place) {
+    if (std::find(latest_places_.begin(), latest_places_.end(), place) != latest_places_.end()) return;
+    const std::size_t at = next_latest_ % kLately;
+    ++next_latest_;
+    if (latest_places_.size() < kLately) {
+      latest_places_.push_back(place);
+    } else {
+      latest_places_[at] = place;
+    }
+    const std::size_t vector = at / PointTree::kSize, lane = at % PointTree::kSize;
+    for (std::size_t k = 0; k < width_; ++k) {
+      const float x = tree_.scaled_rows(place / PointTree::kSize, k)[place % PointTree::kSize];
+      lately_[(vector * width_ + k) * PointTree::kSize + lane] = x;
+    }
+  }
+
+  /// Raises the best by one of each vector of the latest.
+  HWY_INLINE void look_at_latest() {
+    float products[PointTree::kSize];
+    const FloatTag tag;
+    for (std::size_t first = 0; first < latest_places_.size(); first += PointTree::kSize) {
+      for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag))
+        hn::StoreU(scaled_dots(lately_.data() + first * width_ + at), tag, products + at);
+      const std::size_t count = std::min(PointTree::kSize, latest_places_.size() - first);
+      std::size_t highest = 0;
+      for (std::size_t i = 1; i < count; ++i)
+        if (products[i] > products[highest]) highest = i;
+      try_place(latest_places_[first + highest]);
+    }
+  }
+
+  HWY_INLINE std::size_t nearest_cluster() const {
+    const FloatTag tag;
+    auto largest = hn::Set(tag, -HUGE_VALF);
+    for (std::size_t at = 0; at < along_.size(); at += hn::Lanes(tag))
+      largest = hn::Max(largest, hn::LoadU(tag, along_.data() + at));
+    const float nearest = hn::GetLane(hn::MaxOfLanes(tag, largest));
+    const auto found = std::find(along_.begin(), along_.end(), nearest) - along_.begin();
+    return std::min(static_cast<std::size_t>(found), tree_.clusters().count - 1);
+  }
 
   // By the largest entry first: squares of very large or small ones are none.
   void scale() {
@@ -100,7 +146,11 @@ class Search {
   }
 
   // A NaN, of a normal without length or the like, leaves nothing out.
-  void raise_threshold() { threshold_ = static_cast<float>(best_ / largest_ / length_ - middle_) - margin_; }
+  void raise_threshold() {
+    constexpr float kSpare = 0x1p-40f;  // as the reaches of cones have
+    threshold_ = static_cast<float>(best_ / largest_ / length_ - middle_) - margin_;
+    point_threshold_ = threshold_ - kSpare;
+  }
 
   /// Upper bounds, but for the margin, on how far the cones [begin, end) reach, and the cosines to their
   /// axes.
@@ -124,18 +174,28 @@ class Search {
     }
   }
 
+  /// Calls `call` with the places of those entries that are not below the threshold, in order. A NaN is not
+  /// below: it leaves nothing out.
+  template <class Call>
+  HWY_INLINE void for_each_above(const float* bounds, std::size_t count, const Call& call) {
+    const FloatTag tag;
+    for (std::size_t begin = 0; begin < count; begin += hn::Lanes(tag)) {
+      const auto is_below = hn::Lt(hn::LoadU(tag, bounds + begin), hn::Set(tag, threshold_));
+      if (hn::AllTrue(tag, is_below)) continue;
+      std::uint8_t bytes[8] = {};  // as many bits as there are lanes
+      hn::StoreMaskBits(tag, hn::Not(is_below), bytes);
+      for (unsigned bits = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; bits != 0; bits &= bits - 1) {
+        const std::size_t at = begin + static_cast<std::size_t>(__builtin_ctz(bits));
+        if (at < count && !(bounds[at] < threshold_)) call(at);  // it may have been raised since
+      }
+    }
+  }
+
   /// Calls `search` with the groups that may reach the threshold, in order.
   template <class Call>
   HWY_INLINE void search_clusters(const Call& search) {
-    const FloatTag tag;
-    const Cones& clusters = tree_.clusters();
-    for (std::size_t begin = 0; begin < clusters.stride; begin += hn::Lanes(tag)) {
-      const auto least = hn::Set(tag, threshold_);
-      // A NaN is not below: it leaves nothing out.
-      if (hn::AllTrue(tag, hn::Lt(hn::LoadU(tag, bounds_.data() + begin), least))) continue;
-      for (std::size_t at = begin; at < begin + hn::Lanes(tag) && at < clusters.count; ++at)
-        if (!(bounds_[at] < threshold_)) search_cluster(at, search);
-    }
+    for_each_above(bounds_.data(), tree_.clusters().count,
+                   [&](std::size_t cluster) { search_cluster(cluster, search); });
   }
 
   template <class Call>
@@ -144,51 +204,69 @@ class Search {
     float bounds[PointTree::kSize], along[PointTree::kSize];
     bound(tree_.groups(), begin, begin + PointTree::kSize, bounds, along);
     const std::size_t count = std::min(PointTree::kSize, tree_.groups().count - begin);
-    for (std::size_t i = 0; i < count; ++i)
-      if (!(bounds[i] < threshold_)) search(begin + i);
+    for_each_above(bounds, count, [&](std::size_t i) { search(begin + i); });
+  }
+
+  /// Calls `call` with the places of a group that may reach the best. The margin has room for the rounding of
+  /// products in single precision too.
+  template <class Call>
+  HWY_INLINE void for_each_near(std::size_t group, const Call& call) const {
+    const FloatTag tag;
+    const auto least = hn::Set(tag, point_threshold_);
+    for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag)) {
+      const auto is_below = hn::Lt(scaled_dots(tree_.scaled_rows(group, 0) + at), least);
+      if (hn::AllTrue(tag, is_below)) continue;
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(tag, hn::Not(is_below), bytes);
+      for (unsigned bits = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; bits != 0; bits &= bits - 1) {
+        const std::size_t lane = at + static_cast<std::size_t>(__builtin_ctz(bits));
+        const std::size_t place = group * PointTree::kSize + lane;
+        if (place < tree_.point_count()) call(place);
+      }
+    }
   }
 
   HWY_INLINE void search_group(std::size_t group) {
-    const DoubleTag tag;
-    auto best = hn::Set(tag, -HUGE_VAL);
-    for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag))
-      best = hn::Max(best, dots(group, at));
-    const double highest = hn::GetLane(hn::MaxOfLanes(tag, best));
-    if (!(highest > best_)) return;
-    best_ = highest;
-    group_ = group;
+    for_each_near(group, [this](std::size_t place) { try_place(place); });
+  }
+
+  HWY_INLINE void try_place(std::size_t place) {
+    const double product = product_with(place);
+    if (!(product > best_)) return;
+    best_ = product;
+    place_ = place;
     raise_threshold();
   }
 
-  HWY_INLINE hn::VFromD<DoubleTag> dots(std::size_t group, std::size_t at) const {
-    const DoubleTag tag;
-    auto dot = hn::Mul(hn::Set(tag, normal_[0]), hn::LoadU(tag, tree_.rows(group, 0) + at));
+  /// As vectors would have it: a fused chain where the instruction set has such.
+  HWY_INLINE double product_with(std::size_t place) const {
+    const hn::CappedTag<double, 1> tag;
+    const double* point = tree_.point(place);
+    auto product = hn::Mul(hn::Set(tag, normal_[0]), hn::Set(tag, point[0]));
     for (std::size_t k = 1; k < width_; ++k)
-      dot = hn::MulAdd(hn::Set(tag, normal_[k]), hn::LoadU(tag, tree_.rows(group, k) + at), dot);
+      product = hn::MulAdd(hn::Set(tag, normal_[k]), hn::Set(tag, point[k]), product);
+    return hn::GetLane(product);
+  }
+
+  /// Products with `kSize` points in single precision, `row` being the first coordinates of Lanes of them.
+  HWY_INLINE hn::VFromD<FloatTag> scaled_dots(const float* row) const {
+    const FloatTag tag;
+    auto dot = hn::Mul(hn::Set(tag, scaled_[0]), hn::LoadU(tag, row));
+    for (std::size_t k = 1; k < width_; ++k)
+      dot = hn::MulAdd(hn::Set(tag, scaled_[k]), hn::LoadU(tag, row + k * PointTree::kSize), dot);
     return dot;
-  }
-
-  HWY_INLINE void store_dots(std::size_t group, double* products) const {
-    const DoubleTag tag;
-    for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag))
-      hn::StoreU(dots(group, at), tag, products + at);
-  }
-
-  std::uint32_t row_of_best() const {
-    double products[PointTree::kSize];
-    store_dots(group_, products);
-    const auto lane =
-        static_cast<std::size_t>(std::find(products, products + PointTree::kSize, best_) - products);
-    return tree_.order()[std::min(group_ * PointTree::kSize + lane, tree_.point_count() - 1)];
   }
 
   const PointTree& tree_;
   std::size_t width_;
   const double* normal_ = nullptr;
   std::vector<float> scaled_, bounds_, along_;
+  std::vector<float> lately_;  // the latest points, as the groups of the tree
+  std::vector<std::size_t> latest_places_;
+  std::size_t next_latest_ = 0;
   double largest_ = 0.0, length_ = 0.0, middle_ = 0.0, best_ = 0.0;
-  float margin_ = 0.0f, threshold_ = 0.0f;
-  std::size_t group_ = kNone;  // that holds the best
+  float margin_ = 0.0f, threshold_ = 0.0f, point_threshold_ = 0.0f;
+  std::size_t place_ = kNone;  // of the best
 };
 
 /// Calls `call` with a search. Loops of known length pay most where they are short, and each takes a second

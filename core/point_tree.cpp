@@ -3,7 +3,9 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "core/blocks.h"
 
@@ -17,26 +19,31 @@ class NeighbourOrder {
       : dimension_(dimension), points_(std::move(points)), places_(points_.size() / dimension) {}
 
   std::vector<std::uint32_t> run() {
-    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].row = static_cast<std::uint32_t>(i);
+    std::iota(places_.begin(), places_.end(), Place{0});
     split(places_);
     std::vector<std::uint32_t> order(places_.size());
-    std::transform(places_.begin(), places_.end(), order.begin(),
-                   [](const Place& place) { return place.row; });
+    std::transform(places_.begin(), places_.end(), order.begin(), row_of);
     return order;
   }
 
  private:
-  struct Place {
-    float key;
-    std::uint32_t row;
-    bool operator<(const Place& other) const { return key != other.key ? key < other.key : row < other.row; }
-  };
+  /// A row, and above it its coordinate as bits that are ordered as the numbers are: compared in one step.
+  using Place = std::uint64_t;
+  static std::uint32_t row_of(Place place) { return static_cast<std::uint32_t>(place); }
+  static Place place_of(float key, std::uint32_t row) {
+    const auto bits = std::bit_cast<std::uint32_t>(key);
+    const std::uint32_t ordered = bits ^ ((bits >> 31) != 0 ? 0xFFFF'FFFFu : 0x8000'0000u);
+    return Place{ordered} << 32 | row;
+  }
 
   void split(std::span<Place> places) {
     constexpr std::size_t kInCluster = PointTree::kSize * PointTree::kSize, kWorthAThread = 1 << 13;
     if (places.size() <= PointTree::kSize) return;
     const std::size_t column = longest_column(places);
-    for (Place& place : places) place.key = points_[std::size_t{place.row} * dimension_ + column];
+    for (Place& place : places) {
+      const std::uint32_t row = row_of(place);
+      place = place_of(points_[std::size_t{row} * dimension_ + column], row);
+    }
     const std::size_t unit = places.size() > kInCluster ? kInCluster : PointTree::kSize;
     const std::size_t half = (places.size() + unit - 1) / unit / 2 * unit;
     std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(half), places.end());
@@ -57,7 +64,7 @@ class NeighbourOrder {
     for (std::size_t k = 0; k < dimension_; ++k) {
       float low = HUGE_VALF, high = -HUGE_VALF;
       for (std::size_t i = 0; i < places.size(); i += step) {
-        const float x = points_[std::size_t{places[i].row} * dimension_ + k];
+        const float x = points_[std::size_t{row_of(places[i])} * dimension_ + k];
         low = std::min(low, x);
         high = std::max(high, x);
       }
@@ -124,16 +131,24 @@ void PointTree::fill(std::span<const double> points) {
   const std::size_t group_count = (order_.size() + kSize - 1) / kSize;
   groups_ = make_cones(dimension_, group_count);
   clusters_ = make_cones(dimension_, (group_count + kSize - 1) / kSize);
-  rows_.resize(group_count * dimension_ * kSize);
+  points_.resize(order_.size() * dimension_);
+  scaled_rows_.resize(group_count * dimension_ * kSize);
+  std::vector<double> per_size(dimension_);
+  for (std::size_t k = 0; k < dimension_; ++k) per_size[k] = 1.0 / column_sizes_[k];
   constexpr std::size_t kClustersAtATime = 4;
   for_each_block(clusters_.count, kClustersAtATime, [&](std::size_t first, std::size_t last) {
     for (std::size_t cluster = first; cluster < last; ++cluster) {
       const std::size_t begin = cluster * kSize, end = std::min(begin + kSize, group_count);
       for (std::size_t group = begin; group < end; ++group) {
         for (std::size_t i = 0; i < kSize; ++i) {
-          const std::size_t row = order_[std::min(group * kSize + i, order_.size() - 1)];
-          for (std::size_t k = 0; k < dimension_; ++k)
-            rows_[(group * dimension_ + k) * kSize + i] = points[row * dimension_ + k];
+          const std::size_t place = std::min(group * kSize + i, order_.size() - 1);
+          const double* from = points.data() + std::size_t{order_[place]} * dimension_;
+          double* const copy = points_.data() + place * dimension_;
+          float* const scaled = scaled_rows_.data() + group * dimension_ * kSize + i;
+          for (std::size_t k = 0; k < dimension_; ++k) {
+            copy[k] = from[k];
+            scaled[k * kSize] = static_cast<float>(from[k] * per_size[k] - middle_[k]);
+          }
         }
         fill_cone(group, group + 1, groups_, group);
       }
@@ -154,11 +169,9 @@ void PointTree::fill_cone(std::size_t first_group, std::size_t last_group, Cones
   std::vector<double> axis(dimension_);
   double axis_sq = 0.0;
   const auto for_each_of = [&](std::size_t k, const auto& call) {
-    const double per_size = 1.0 / column_sizes_[k];
     for (std::size_t group = first_group; group < last_group; ++group) {
-      const double* row = rows(group, k);
-      for (std::size_t i = 0; i < kSize; ++i)
-        call((group - first_group) * kSize + i, row[i] * per_size - middle_[k]);
+      const float* row = scaled_rows(group, k);
+      for (std::size_t i = 0; i < kSize; ++i) call((group - first_group) * kSize + i, double{row[i]});
     }
   };
   for (std::size_t k = 0; k < dimension_; ++k) {

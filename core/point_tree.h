@@ -2,9 +2,11 @@
 // which point is furthest above which.
 //
 // Idea. Points in groups of neighbours, groups in clusters, each with a cone around it that begins in the
-// middle of all points: hulls are round, and from there a group is a small cap. Along a direction the cone
-// that may reach furthest is looked into first; most others then reach less far than the best point found.
-// Bounds include their own rounding, so the result is the same, digit for digit, as that of all products.
+// middle of all points: hulls are round, and from there a group is a small cap. Along a direction the points
+// that were furthest along directions before and the cone that may reach furthest are looked at first; most
+// others then reach less far than the best point found. Points of the rest are multiplied in single
+// precision, those that may be the furthest again in double. Bounds include their own rounding, so the result
+// is the same, digit for digit, as that of all products.
 #pragma once
 
 #include <cstddef>
@@ -48,10 +50,13 @@ class PointTree {
   double reach() const { return reach_; }
   const Cones& groups() const { return groups_; }
   const Cones& clusters() const { return clusters_; }
-  /// Coordinate k of the kSize points of a group; the last point fills the last group.
-  const double* rows(std::size_t group, std::size_t k) const {
-    return rows_.data() + (group * dimension_ + k) * kSize;
+  /// Coordinate k of the kSize points of a group in the cones' coordinates; the last point fills the last
+  /// group.
+  const float* scaled_rows(std::size_t group, std::size_t k) const {
+    return scaled_rows_.data() + (group * dimension_ + k) * kSize;
   }
+  /// The point at a place, as it was given.
+  const double* point(std::size_t place) const { return points_.data() + place * dimension_; }
 
  private:
   void find_columns(std::span<const double> points);
@@ -63,7 +68,8 @@ class PointTree {
   std::vector<double> column_sizes_;  // powers of two, at least the largest |x_k|
   std::vector<double> middle_;
   double reach_ = 0.0;
-  std::vector<double> rows_;
+  std::vector<double> points_;      // in order
+  std::vector<float> scaled_rows_;  // by groups and columns
   Cones groups_, clusters_;
 };
 
