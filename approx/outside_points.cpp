@@ -28,6 +28,10 @@ OutsideSearch::OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> point
     : growth_(growth), points_(std::move(points)) {
   if (points_.empty()) return;
   const std::size_t rank = growth_.work().rank;
+  if (points_.size() == growth_.work().point_count) {  // ascending: all of them
+    tree_.emplace(rank, std::span<const double>(growth_.coordinates(), points_.size() * rank));
+    return;
+  }
   std::vector<double> rows(points_.size() * rank);
   for (std::size_t i = 0; i < points_.size(); ++i)
     std::copy_n(growth_.coordinates() + std::size_t{points_[i].value} * rank, rank, rows.data() + i * rank);

@@ -28,7 +28,7 @@ class Search {
  public:
   explicit Search(const PointTree& tree)
       : tree_(tree),
-        width_(D > 0 ? D : tree.dimension()),
+        width_(tree.dimension()),
         scaled_(width_),
         bounds_(tree.clusters().stride),
         along_(bounds_.size()),
@@ -77,6 +77,9 @@ class Search {
   }
 
  private:
+  /// Known when it is compiled where D is not 0: then loops over it are unrolled.
+  HWY_INLINE std::size_t width() const { return D > 0 ? D : width_; }
+
   static constexpr std::size_t kNone = ~std::size_t{0};
   /// Clusters whose axes are nearest to the direction: one of them mostly holds the furthest point.
   static constexpr std::size_t kFirst = 4;
@@ -95,9 +98,9 @@ class Search {
       latest_places_[at] = place;
     }
     const std::size_t vector = at / PointTree::kSize, lane = at % PointTree::kSize;
-    for (std::size_t k = 0; k < width_; ++k) {
+    for (std::size_t k = 0; k < width(); ++k) {
       const float x = tree_.scaled_rows(place / PointTree::kSize, k)[place % PointTree::kSize];
-      lately_[(vector * width_ + k) * PointTree::kSize + lane] = x;
+      lately_[(vector * width() + k) * PointTree::kSize + lane] = x;
     }
   }
 
@@ -107,7 +110,7 @@ class Search {
     const FloatTag tag;
     for (std::size_t first = 0; first < latest_places_.size(); first += PointTree::kSize) {
       for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag))
-        hn::StoreU(scaled_dots(lately_.data() + first * width_ + at), tag, products + at);
+        hn::StoreU(scaled_dots(lately_.data() + first * width() + at), tag, products + at);
       const std::size_t count = std::min(PointTree::kSize, latest_places_.size() - first);
       std::size_t highest = 0;
       for (std::size_t i = 1; i < count; ++i)
@@ -130,15 +133,15 @@ class Search {
   void scale() {
     const double* sizes = tree_.column_sizes().data();
     largest_ = 0.0;
-    for (std::size_t k = 0; k < width_; ++k) largest_ = std::max(largest_, std::abs(normal_[k]) * sizes[k]);
+    for (std::size_t k = 0; k < width(); ++k) largest_ = std::max(largest_, std::abs(normal_[k]) * sizes[k]);
     double length_sq = 0.0;
-    for (std::size_t k = 0; k < width_; ++k) {
+    for (std::size_t k = 0; k < width(); ++k) {
       const double entry = normal_[k] * sizes[k] / largest_;
       length_sq += entry * entry;
     }
     length_ = std::sqrt(length_sq);
     middle_ = 0.0;
-    for (std::size_t k = 0; k < width_; ++k) {
+    for (std::size_t k = 0; k < width(); ++k) {
       const double scaled = normal_[k] * sizes[k] / largest_ / length_;
       scaled_[k] = static_cast<float>(scaled);
       middle_ += scaled * tree_.middle()[k];
@@ -160,7 +163,7 @@ class Search {
     const auto one = hn::Set(tag, 1.0f), zero = hn::Zero(tag);
     for (std::size_t at = begin; at < end; at += hn::Lanes(tag)) {
       auto along = hn::Mul(hn::Set(tag, scaled_[0]), hn::LoadU(tag, cones.axes.data() + at));
-      for (std::size_t k = 1; k < width_; ++k) {
+      for (std::size_t k = 1; k < width(); ++k) {
         const auto normal = hn::Set(tag, scaled_[k]);
         along = hn::MulAdd(normal, hn::LoadU(tag, cones.axes.data() + k * cones.stride + at), along);
       }
@@ -204,6 +207,11 @@ class Search {
     float bounds[PointTree::kSize], along[PointTree::kSize];
     bound(tree_.groups(), begin, begin + PointTree::kSize, bounds, along);
     const std::size_t count = std::min(PointTree::kSize, tree_.groups().count - begin);
+    for_each_above(bounds, count,
+                   [&](std::size_t i) {  // all on their way from memory before the first is used
+                     for (std::size_t k = 0; k < width(); ++k)
+                       __builtin_prefetch(tree_.scaled_rows(begin + i, k));
+                   });
     for_each_above(bounds, count, [&](std::size_t i) { search(begin + i); });
   }
 
@@ -243,7 +251,7 @@ class Search {
     const hn::CappedTag<double, 1> tag;
     const double* point = tree_.point(place);
     auto product = hn::Mul(hn::Set(tag, normal_[0]), hn::Set(tag, point[0]));
-    for (std::size_t k = 1; k < width_; ++k)
+    for (std::size_t k = 1; k < width(); ++k)
       product = hn::MulAdd(hn::Set(tag, normal_[k]), hn::Set(tag, point[k]), product);
     return hn::GetLane(product);
   }
@@ -252,7 +260,7 @@ class Search {
   HWY_INLINE hn::VFromD<FloatTag> scaled_dots(const float* row) const {
     const FloatTag tag;
     auto dot = hn::Mul(hn::Set(tag, scaled_[0]), hn::LoadU(tag, row));
-    for (std::size_t k = 1; k < width_; ++k)
+    for (std::size_t k = 1; k < width(); ++k)
       dot = hn::MulAdd(hn::Set(tag, scaled_[k]), hn::LoadU(tag, row + k * PointTree::kSize), dot);
     return dot;
   }

@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -46,7 +47,7 @@ class NeighbourOrder {
     }
     const std::size_t unit = places.size() > kInCluster ? kInCluster : PointTree::kSize;
     const std::size_t half = (places.size() + unit - 1) / unit / 2 * unit;
-    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(half), places.end());
+    select(places, half);
     const auto low = places.first(half), high = places.subspan(half);
     if (places.size() < kWorthAThread) {
       split(low);
@@ -54,6 +55,33 @@ class NeighbourOrder {
     } else {
       tbb::parallel_invoke([&] { split(low); }, [&] { split(high); });
     }
+  }
+
+  /// As std::nth_element; without a branch on what is compared, which cannot be foreseen.
+  static void select(std::span<Place> places, std::size_t nth) {
+    constexpr std::size_t kFew = 64, kSample = 15;
+    while (places.size() > kFew) {
+      std::array<Place, kSample> sample;
+      for (std::size_t i = 0; i < kSample; ++i)
+        sample[i] = places[(2 * i + 1) * places.size() / (2 * kSample)];
+      std::sort(sample.begin(), sample.end());
+      const Place pivot = sample[nth * kSample / places.size()];
+      std::size_t below = 0;
+      for (Place& place : places) {
+        const Place moved = place;
+        place = places[below];
+        places[below] = moved;
+        below += moved < pivot ? 1u : 0u;
+      }
+      if (nth < below) {
+        places = places.first(below);
+      } else {
+        places = places.subspan(below);
+        nth -= below;
+      }
+      if (below == 0) break;  // the pivot is the least of all: rare, and no progress
+    }
+    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(nth), places.end());
   }
 
   std::size_t longest_column(std::span<const Place> places) const {
@@ -142,6 +170,8 @@ void PointTree::fill(std::span<const double> points) {
       for (std::size_t group = begin; group < end; ++group) {
         for (std::size_t i = 0; i < kSize; ++i) {
           const std::size_t place = std::min(group * kSize + i, order_.size() - 1);
+          const std::size_t ahead = std::min(place + kSize, order_.size() - 1);
+          __builtin_prefetch(points.data() + std::size_t{order_[ahead]} * dimension_);
           const double* from = points.data() + std::size_t{order_[place]} * dimension_;
           double* const copy = points_.data() + place * dimension_;
           float* const scaled = scaled_rows_.data() + group * dimension_ * kSize + i;
