@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "core/dimension_switch.h"
 
 namespace ndhull {
 namespace {
 
 /// Simplices from which on turning a slab and growing it again is worth its time: smaller ones gain 1 to 5 %.
 constexpr std::size_t kWorthTurning = 64;
+/// A slab that has so many simplices meets most of the points, if these are few: then all products are
+/// computed at once, and nothing is asked of each.
+constexpr std::size_t kManyGrown = 64, kFewRows = 4096;
 
 }  // namespace
 
@@ -36,60 +42,76 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
 /// `width` below the plane. None when the seed is not among them.
 void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width,
                        SlabScratch& scratch) const {
+  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { flood_in<d>(seed, plane, width, scratch); });
+}
+
+template <std::size_t D>
+void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double width,
+                          SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
-  const std::size_t rank = complex_.rank;
-  const auto mix_of = [rank](std::span<const PointId> vertices) {
+  const auto vertices_of_row = [this](std::uint32_t row) {
+    return complex_.topology.data() + std::size_t{row} * 2 * D;
+  };
+  const auto mix_of = [](const std::uint32_t* vertices) {
     std::uint32_t mix = 0;
-    for (std::size_t k = 0; k < rank; ++k) mix ^= vertices[k].value;
+    for (std::size_t k = 0; k < D; ++k) mix ^= vertices[k];
     return mix;
   };
+  const auto take = [&](std::uint32_t simplex, const auto& height_of) {
+    double low = HUGE_VAL, sum = 0.0;
+    for (std::size_t k = 0; k < D; ++k) {
+      const double height = height_of(vertices_of_row(simplex)[k]);
+      low = std::min(low, height);
+      sum += height;
+    }
+    if (low < least) return;
+    if (rule_ != nullptr && simplex != seed &&
+        !rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit))
+      return;
+    scratch.grown.push_back(simplex);
+    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
+    for (std::size_t k = D; k < 2 * D; ++k) {  // neighbours: they are met next, or soon
+      const std::uint32_t next = vertices_of_row(simplex)[k];
+      __builtin_prefetch(scratch.stamp.data() + next, 1);
+      __builtin_prefetch(vertices_of_row(next));
+    }
+  };
+  std::size_t next_grown = 0;
+  const auto spread = [&](std::size_t enough, const auto& height_of) {
+    for (; next_grown < scratch.grown.size() && scratch.grown.size() < enough; ++next_grown) {
+      const std::uint32_t* vertices = vertices_of_row(scratch.grown[next_grown]);
+      const std::uint32_t mix = mix_of(vertices);
+      for (std::size_t k = 0; k < D; ++k) {
+        const std::uint32_t next = vertices[D + k];
+        if (scratch.stamp[next] == scratch.flood) continue;
+        scratch.stamp[next] = scratch.flood;
+        // All its vertices are this one's too, but for the one across the ridge.
+        const std::uint32_t apex = mix ^ vertices[k] ^ mix_of(vertices_of_row(next));
+        if (!(height_of(apex) < least)) take(next, height_of);
+      }
+    }
+  };
   const std::uint32_t pass = ++scratch.vertex_pass;
-  const auto height_of = [&](PointId vertex) {
-    const std::uint32_t row = space_.row_of(vertex);
+  const auto height_when_asked = [&](std::uint32_t vertex) {
+    const std::uint32_t row = space_.row_of(PointId{vertex});
     if (scratch.vertex_stamp[row] != pass) {
       scratch.vertex_stamp[row] = pass;
       scratch.dots[row] = dot_of(plane.normal.data(), row);
     }
     return scratch.dots[row];
   };
-  const auto take = [&](std::uint32_t simplex) {
-    double low = HUGE_VAL, sum = 0.0;
-    for (const PointId id : complex_.vertices(SimplexId{simplex})) {
-      const double dot = height_of(id);
-      low = std::min(low, dot);
-      sum += dot;
-    }
-    if (low < least) return;
-    const double mean = sum / static_cast<double>(rank);
-    if (rule_ != nullptr && simplex != seed &&
-        !rule_->wants(SimplexId{simplex}, mean, scratch.compared, scratch.rule_fit))
-      return;
-    scratch.grown.push_back(simplex);
-    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
-    for (const SimplexId next : complex_.neighbours(SimplexId{simplex})) {  // they are met next, or soon
-      __builtin_prefetch(scratch.stamp.data() + next.value, 1);
-      __builtin_prefetch(complex_.topology.data() + std::size_t{next.value} * 2 * rank);
-    }
-  };
   scratch.grown.clear();
   scratch.depths.clear();
   if (rule_ != nullptr) rule_->set_plane(SimplexId{seed}, plane, scratch.compared);
   ++scratch.flood;
   scratch.stamp[seed] = scratch.flood;
-  take(seed);
-  for (std::size_t i = 0; i < scratch.grown.size(); ++i) {
-    const auto vertices = complex_.vertices(SimplexId{scratch.grown[i]});
-    const auto neighbours = complex_.neighbours(SimplexId{scratch.grown[i]});
-    const std::uint32_t mix = mix_of(vertices);
-    for (std::size_t k = 0; k < rank; ++k) {
-      const std::uint32_t next = neighbours[k].value;
-      if (scratch.stamp[next] == scratch.flood) continue;
-      scratch.stamp[next] = scratch.flood;
-      // All its vertices are this one's too, but for the one across the ridge.
-      const PointId apex{mix ^ vertices[k].value ^ mix_of(complex_.vertices(SimplexId{next}))};
-      if (!(height_of(apex) < least)) take(next);
-    }
-  }
+  take(seed, height_when_asked);
+  const std::size_t count = space_.table().count();
+  if (count > kFewRows) return spread(SIZE_MAX, height_when_asked);
+  spread(kManyGrown, height_when_asked);
+  if (next_grown == scratch.grown.size()) return;
+  for (std::uint32_t row = 0; row < count; ++row) scratch.dots[row] = dot_of(plane.normal.data(), row);
+  spread(SIZE_MAX, [&](std::uint32_t vertex) { return scratch.dots[space_.row_of(PointId{vertex})]; });
 }
 
 std::span<const std::uint32_t> SlabGrower::vertices_of(std::span<const std::uint32_t> members,

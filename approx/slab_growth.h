@@ -75,6 +75,8 @@ class SlabGrower {
                                SlabScratch& scratch) const;
   void measure(FittedPlane& plane, SlabScratch& scratch) const;
   void flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
+  template <std::size_t D>
+  void flood_in(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
