@@ -46,7 +46,7 @@ class Approximation {
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.
   bool is_convex() const {
-    return space_->vertex_count() == space_->table().count() && growth_.work().counters.shifted == 0;
+    return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
   }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);

@@ -270,7 +270,7 @@ void CertifiedGrowth::report_counters() {
   HullStatistics& statistics = hull_.statistics;
   statistics.created_simplices = counters.created;
   statistics.insertions = counters.insertions;
-  statistics.shifted_points = counters.shifted;
+  statistics.shifted_points = work_.shifted_points.size();
   statistics.rejected_insertions = counters.rejected;
   const std::pair<std::string_view, double> details[] = {{"visible set", counters.seconds_visible},
                                                          {"cone", counters.seconds_cone},

@@ -124,9 +124,13 @@ class HullBuilder {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex().row_count);
     const std::span<double> determinants(determinants_.data(), complex().row_count);
-    const bool shifted = growth_->work().counters.shifted > 0;
+    std::vector<std::uint8_t> is_shifted;
+    for (const std::uint32_t id : growth_->work().shifted_points) {
+      is_shifted.resize(points_.rows);
+      is_shifted[id] = 1;
+    }
     if (frame_.rank >= 2) {
-      solve_simplices(complex(), growth_->coordinates(), shifted, determinants);
+      solve_simplices(complex(), growth_->coordinates(), is_shifted, determinants);
     } else {
       for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / complex().planes[row]);
     }
@@ -135,8 +139,8 @@ class HullBuilder {
     const Clock::time_point merge_start = Clock::now();
     hull_.is_approximate = clusters_.count > 0;
     // Without a shifted point every decision was clearer than the shift: all ridges are convex.
-    if (!hull_.is_approximate && shifted && !options_.triangulate) {
-      clusters_ = merge_coplanar(complex(), growth_->coordinates(), determinants,
+    if (!hull_.is_approximate && !is_shifted.empty() && !options_.triangulate) {
+      clusters_ = merge_coplanar(complex(), growth_->coordinates(), is_shifted, determinants,
                                  4.0 * growth_->work().options.shift);
     }
     if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);

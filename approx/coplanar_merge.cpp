@@ -19,9 +19,9 @@ class Merger {
          double tolerance)
       : complex_(complex), points_(points), determinants_(determinants), tolerance_(tolerance) {}
 
-  FacetClusters run() {
+  FacetClusters run(std::span<const std::uint8_t> is_shifted) {
     has_flat_ridge_.assign(complex_.row_count, 0);
-    mark_flat(complex_, points_, tolerance_, has_flat_ridge_);
+    mark_flat(complex_, points_, tolerance_, simplices_at(is_shifted), has_flat_ridge_);
     grow_facets();
     if (!clusters_.empty()) absorb_slivers();
     return facets();
@@ -35,7 +35,7 @@ class Merger {
     std::uint32_t joined;
     std::vector<std::uint32_t> simplices;
     Vector plane;
-    std::vector<PointId> points;  // sorted; filled before slivers are absorbed
+    std::vector<PointId> points;  // ascending
   };
 
   ConstRow plane(std::uint32_t simplex) const { return {complex_.plane(SimplexId{simplex}).data(), rank()}; }
@@ -47,6 +47,15 @@ class Merger {
     const auto slot =
         static_cast<std::size_t>(std::find(back.begin(), back.end(), SimplexId{simplex}) - back.begin());
     return complex_.vertices(SimplexId{neighbour})[slot];
+  }
+
+  /// Those with a vertex of these.
+  std::vector<std::uint8_t> simplices_at(std::span<const std::uint8_t> is_vertex) const {
+    std::vector<std::uint8_t> is_one(complex_.row_count, 0);
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+      for (const PointId id : complex_.vertices(SimplexId{simplex})) is_one[simplex] |= is_vertex[id.value];
+    }
+    return is_one;
   }
 
   void grow_facets() {
@@ -67,39 +76,46 @@ class Merger {
     const auto id = static_cast<std::uint32_t>(clusters_.size());
     Cluster cluster{id, {seed}, plane(seed), {}};
     cluster_of_[seed] = id;
+    ++stamp_;
+    for (const PointId vertex : complex_.vertices(SimplexId{seed})) {
+      look_of(vertex) = {stamp_, true};
+      cluster.points.push_back(vertex);
+    }
     for (std::size_t i = 0; i < cluster.simplices.size(); ++i) {
       const std::uint32_t simplex = cluster.simplices[i];
       for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
         if (!has_flat_ridge_[neighbour.value] || cluster_of_[neighbour.value] != kNone) continue;
-        const double gauge = cluster.plane.dot(point(opposite_vertex(neighbour.value, simplex))) - 1.0;
-        if (std::abs(gauge) > tolerance_) continue;
+        const PointId opposite = opposite_vertex(neighbour.value, simplex);
+        PointLook& look = look_of(opposite);  // many simplices have the same: its gauge is taken once
+        if (look.stamp != stamp_) {
+          look = {stamp_, std::abs(cluster.plane.dot(point(opposite)) - 1.0) <= tolerance_};
+          if (look.is_in_plane) cluster.points.push_back(opposite);
+        }
+        if (!look.is_in_plane) continue;
         cluster_of_[neighbour.value] = id;
         cluster.simplices.push_back(neighbour.value);
       }
     }
     if (cluster.simplices.size() > 1) fit_plane(cluster);
+    std::sort(cluster.points.begin(), cluster.points.end());
     clusters_.push_back(std::move(cluster));
   }
 
-  /// The different vertices of a cluster, in the order met.
-  std::vector<PointId> points_of(const Cluster& cluster) {
-    std::vector<PointId> ids;
-    ++stamp_;
-    for (const std::uint32_t simplex : cluster.simplices) {
-      for (const PointId id : complex_.vertices(SimplexId{simplex})) {
-        if (id.value >= stamp_of_point_.size()) stamp_of_point_.resize(2 * std::size_t{id.value} + 2, 0);
-        if (stamp_of_point_[id.value] == stamp_) continue;
-        stamp_of_point_[id.value] = stamp_;
-        ids.push_back(id);
-      }
-    }
-    return ids;
+  /// Was a point looked at for the cluster with this stamp, and is it in its seed's plane?
+  struct PointLook {
+    std::uint32_t stamp = 0;
+    bool is_in_plane = false;
+  };
+
+  PointLook& look_of(PointId id) {
+    if (id.value >= looks_.size()) looks_.resize(2 * std::size_t{id.value} + 2);
+    return looks_[id.value];
   }
 
   // Minimises sum (a.v - 1)^2. Kept only when it is no wider than the seed's plane: a thin flat does not
   // determine all coordinates of its plane.
   void fit_plane(Cluster& cluster) {
-    const std::vector<PointId> ids = points_of(cluster);
+    const std::vector<PointId>& ids = cluster.points;
     Eigen::MatrixXd rows(static_cast<Eigen::Index>(ids.size()), rank());
     for (std::size_t i = 0; i < ids.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = point(ids[i]);
     const Vector ones = Vector::Ones(rows.rows());
@@ -119,10 +135,6 @@ class Merger {
   // in the neighbour's plane. Smallest facets first, again until none is left: a sliver's neighbours may be
   // slivers that join a flat only later.
   void absorb_slivers() {
-    for (Cluster& cluster : clusters_) {
-      cluster.points = points_of(cluster);
-      std::sort(cluster.points.begin(), cluster.points.end());
-    }
     for (bool changed = true; changed;) {
       changed = adopt_enclosed() || adopt_pinned();
       for (auto id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
@@ -157,6 +169,7 @@ class Merger {
   /// Simplices in no cluster that are neighbours of a facet of several, ascending.
   std::vector<std::uint32_t> simplices_beside_facets() const {
     std::vector<std::uint32_t> beside;
+    if (std::find(cluster_of_.begin(), cluster_of_.end(), kNone) == cluster_of_.end()) return beside;
     for (const Cluster& cluster : clusters_) {
       if (cluster.simplices.size() < 2) continue;
       for (const std::uint32_t simplex : cluster.simplices) {
@@ -181,10 +194,10 @@ class Merger {
         in_cluster.resize(cluster.points.back().value + 1u);
       for (const PointId id : cluster.points) in_cluster[id.value] = true;
     }
-    if (in_cluster.empty()) return false;
+    auto lacking = std::count(in_cluster.begin(), in_cluster.end(), true);  // points with too few facets yet
     std::vector<std::vector<std::uint32_t>> facets_at(in_cluster.size());
     const auto in_doubt = [&](PointId id) { return id.value < in_cluster.size() && in_cluster[id.value]; };
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count && lacking > 0; ++simplex) {
       for (const PointId id : complex_.vertices(SimplexId{simplex})) {
         if (!in_doubt(id)) continue;
         std::vector<std::uint32_t>& facets = facets_at[id.value];
@@ -192,8 +205,10 @@ class Merger {
         if (facets.size() >= enough || std::find(facets.begin(), facets.end(), facet) != facets.end())
           continue;
         facets.push_back(facet);
+        if (facets.size() == enough) --lacking;
       }
     }
+    if (lacking == 0) return false;
     bool any = false;
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       if (is_merged(simplex)) continue;
@@ -236,8 +251,8 @@ class Merger {
   void adopt(std::uint32_t simplex, std::uint32_t host) {
     if (cluster_of_[simplex] == kNone) {
       cluster_of_[simplex] = static_cast<std::uint32_t>(clusters_.size());
-      clusters_.push_back({cluster_of_[simplex], {simplex}, plane(simplex), {}});
-      clusters_.back().points = points_of(clusters_.back());
+      const auto vertices = complex_.vertices(SimplexId{simplex});
+      clusters_.push_back({cluster_of_[simplex], {simplex}, plane(simplex), {vertices.begin(), vertices.end()}});
       std::sort(clusters_.back().points.begin(), clusters_.back().points.end());
     }
     has_flat_ridge_[simplex] = 1;
@@ -310,15 +325,16 @@ class Merger {
   std::vector<std::uint8_t> has_flat_ridge_;
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
-  std::vector<std::uint32_t> stamp_of_point_;
+  std::vector<PointLook> looks_;
   std::uint32_t stamp_ = 0;
 };
 
 }  // namespace
 
 FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
-                             std::span<const double> determinants, double tolerance) {
-  return Merger(complex, points, determinants, tolerance).run();
+                             std::span<const std::uint8_t> is_shifted, std::span<const double> determinants,
+                             double tolerance) {
+  return Merger(complex, points, determinants, tolerance).run(is_shifted);
 }
 
 }  // namespace ndhull

@@ -16,17 +16,20 @@ using ConstRow = Eigen::Map<const Vector>;
 void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                           const std::vector<std::uint32_t>& facets_at, std::vector<bool>& is_vertex) {
   std::vector<PointId> points;
-  for (std::size_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
+  std::vector<std::uint32_t> last_facet(is_vertex.size(), FacetId::kNone);
+  for (std::uint32_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
     points.clear();
     for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
-      const auto vertices = complex.vertices(SimplexId{row});
-      points.insert(points.end(), vertices.begin(), vertices.end());
+      for (const PointId id : complex.vertices(SimplexId{row})) {
+        if (last_facet[id.value] == merged) continue;
+        last_facet[id.value] = merged;
+        points.push_back(id);
+      }
     }
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
     auto kept = static_cast<std::size_t>(
         std::count_if(points.begin(), points.end(), [&](PointId id) { return is_vertex[id.value]; }));
     if (kept >= complex.rank) continue;
+    std::sort(points.begin(), points.end());
     std::stable_sort(points.begin(), points.end(),
                      [&](PointId a, PointId b) { return facets_at[a.value] > facets_at[b.value]; });
     for (const PointId id : points) {

@@ -61,7 +61,7 @@ std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t poin
 std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const {
   if (limits_.max_memory_bytes == 0) return 0;
-  const bool merges = must_cover_ || work.counters.shifted > 0;
+  const bool merges = must_cover_ || !work.shifted_points.empty();
   return rows_for(row_bytes(work, dimension, merges, must_cover_), point_bytes);
 }
 
@@ -93,7 +93,7 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
   }
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
-  if (work.counters.shifted > 0) share += kMergeShare;
+  if (!work.shifted_points.empty()) share += kMergeShare;
   return static_cast<double>(rows) * share * seconds_per_created(work) +
          static_cast<double>(points) * seconds_per_point_;
 }

@@ -169,29 +169,42 @@ void Grower<D>::commit() {
 // at: each pair's subridge must differ from that of all other pairs.
 template <std::size_t D>
 bool Grower<D>::cone_is_sphere() {
-  std::size_t mask = 63;  // open addressing, 2^k entries, half of them free
-  while (mask < new_count_ * D) mask = 2 * mask + 1;
+  // Open addressing. Each pair of neighbours has one key: at most two thirds of the entries are used.
+  const std::size_t pairs = new_count_ * (D - 1) / 2;
+  std::size_t mask = 63;
+  while (2 * mask < 3 * pairs) mask = 2 * mask + 1;
   subridge_keys_.assign(mask + 1, 0);
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    const std::uint32_t row = new_rows_[i];
-    const std::uint32_t* ids = vertices(row);
-    const std::uint32_t* around = neighbours(row);
-    const std::uint32_t apex_slot = horizon_[i].slot;
-    std::uint64_t key_of[D], all = 1;
-    for (std::size_t k = 0; k < D; ++k) all ^= key_of[k] = k == apex_slot ? 0 : scramble(ids[k]);
-    for (std::size_t k = 0; k < D; ++k) {
-      if (k == apex_slot || around[k] < row) continue;  // each pair once
-      const std::uint64_t key = all ^ key_of[k];
-      std::size_t at = key & mask;
+  constexpr std::size_t kRows = 8;  // whose entries are on their way from memory together
+  std::uint64_t keys[kRows * D];
+  for (std::size_t begin = 0; begin < new_count_; begin += kRows) {
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < std::min(begin + kRows, new_count_); ++i) {
+      const std::uint32_t row = new_rows_[i];
+      const std::uint32_t* ids = vertices(row);
+      const std::uint32_t* around = neighbours(row);
+      const std::uint32_t apex_slot = horizon_[i].slot;
+      std::uint64_t key_of[D], all = 1;
+      for (std::size_t k = 0; k < D; ++k) all ^= key_of[k] = k == apex_slot ? 0 : scramble(ids[k]);
+      for (std::size_t k = 0; k < D; ++k) {
+        keys[count] = all ^ key_of[k];
+        __builtin_prefetch(subridge_keys_.data() + (keys[count] & mask));
+        // Each pair once: which side has it cannot be predicted.
+        count += static_cast<std::size_t>(k != apex_slot) & static_cast<std::size_t>(around[k] > row);
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t at = keys[i] & mask;
       while (subridge_keys_[at] != 0) {
-        if (subridge_keys_[at] == key) return false;
+        if (subridge_keys_[at] == keys[i]) return false;
         at = (at + 1) & mask;
       }
-      subridge_keys_[at] = key;
+      subridge_keys_[at] = keys[i];
     }
   }
   // Connected: walk from the first new simplex. kLive marks those reached.
-  std::vector<std::uint32_t> reached{new_rows_[0]};
+  std::vector<std::uint32_t> reached;
+  reached.reserve(new_count_);
+  reached.push_back(new_rows_[0]);
   for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kFree;
   state_[reached[0]] = SimplexState::kLive;
   for (std::size_t i = 0; i < reached.size(); ++i) {

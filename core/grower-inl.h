@@ -271,7 +271,7 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     commit();
     work_.counters.created += new_count_;
     ++work_.counters.insertions;
-    work_.counters.shifted += shift > 0.0 ? 1 : 0;
+    if (shift > 0.0) work_.shifted_points.push_back(apex_id);
     clock.lap(work_.counters.seconds_match);
     partition(apex_id);
     clock.lap(work_.counters.seconds_partition);

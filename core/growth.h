@@ -52,7 +52,6 @@ struct GrowthOptions {
 struct GrowthCounters {
   std::uint64_t created = 0;     ///< simplices ever made
   std::uint64_t insertions = 0;  ///< points added
-  std::uint64_t shifted = 0;     ///< of these, moved inwards
   std::uint64_t rejected = 0;    ///< insertions tried that did not close and were undone
   std::uint64_t set_aside = 0;   ///< points given up after all tries; certify finds out what they cost
   double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
@@ -81,6 +80,7 @@ struct GrowthWork {
   std::vector<double> height;               ///< per point: height above the simplex that holds it
   std::vector<OutsideSet> pending;          ///< heap: the set with the furthest point of all comes first
   std::uint64_t points_outside = 0;
+  std::vector<std::uint32_t> shifted_points;  ///< those added moved inwards
 
   GrowthOptions options;
   GrowthCounters counters;

@@ -102,29 +102,46 @@ void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::s
 // Neighbours are fetched some simplices ahead: they lie anywhere in memory.
 template <std::size_t D>
 void mark_flat_of(const SimplicialComplex& complex, const double* points, double tolerance,
-                  std::span<std::uint8_t> is_flat) {
+                  std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
   constexpr std::size_t kAhead = 4;
-  for (std::size_t row = 0; row < complex.row_count; ++row) {
-    if (row + kAhead < complex.row_count) {
-      for (const SimplexId later : complex.neighbours(SimplexId{static_cast<std::uint32_t>(row + kAhead)})) {
-        __builtin_prefetch(complex.neighbours(later).data());
-        __builtin_prefetch(complex.vertices(later).data());
+  const auto gauge_above = [&](SimplexId simplex, PointId id) {
+    const double* plane = complex.plane(simplex).data();
+    const double* point = points + std::size_t{id.value} * D;
+    double gauge = -1.0;
+    for (std::size_t k = 0; k < D; ++k) gauge = __builtin_fma(plane[k], point[k], gauge);
+    return gauge;
+  };
+  // Each block has a list of the other sides: two threads must not write the same mark.
+  const std::size_t count = complex.row_count;
+  std::vector<std::vector<std::uint32_t>> others((count + kSimplicesInBlock - 1) / kSimplicesInBlock);
+  for_each_block(count, kSimplicesInBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      if (row + kAhead < end && looks_at[row + kAhead]) {
+        const SimplexId ahead{static_cast<std::uint32_t>(row + kAhead)};
+        for (const SimplexId later : complex.neighbours(ahead)) {
+          __builtin_prefetch(complex.neighbours(later).data());
+          __builtin_prefetch(complex.vertices(later).data());
+        }
+      }
+      if (!looks_at[row]) continue;
+      const SimplexId simplex{static_cast<std::uint32_t>(row)};
+      for (std::size_t k = 0; k < D; ++k) {
+        const SimplexId neighbour = complex.neighbours(simplex)[k];
+        const auto back = complex.neighbours(neighbour);
+        std::size_t slot = 0;
+        while (back[slot] != simplex) ++slot;
+        double highest = gauge_above(simplex, complex.vertices(neighbour)[slot]);
+        // The other side looks at itself when it is one to look at.
+        if (!looks_at[neighbour.value])
+          highest = std::max(highest, gauge_above(neighbour, complex.vertices(simplex)[k]));
+        if (highest <= -tolerance) continue;
+        is_flat[row] = 1;
+        others[begin / kSimplicesInBlock].push_back(neighbour.value);
       }
     }
-    const SimplexId simplex{static_cast<std::uint32_t>(row)};
-    const double* plane = complex.plane(simplex).data();
-    for (const SimplexId neighbour : complex.neighbours(simplex)) {
-      const auto back = complex.neighbours(neighbour);
-      std::size_t slot = 0;
-      while (back[slot] != simplex) ++slot;
-      const double* opposite = points + std::size_t{complex.vertices(neighbour)[slot].value} * D;
-      double gauge = -1.0;
-      for (std::size_t k = 0; k < D; ++k) gauge = __builtin_fma(plane[k], opposite[k], gauge);
-      if (gauge <= -tolerance) continue;
-      is_flat[row] = 1;
-      is_flat[neighbour.value] = 1;
-    }
-  }
+  });
+  for (const std::vector<std::uint32_t>& block : others)
+    for (const std::uint32_t row : block) is_flat[row] = 1;
 }
 
 // One simplex a lane.
@@ -182,30 +199,38 @@ void take_plane(double* plane, const double* solved, std::size_t lanes) {
 }
 
 template <std::size_t D>
-void solve_simplices_of(SimplicialComplex& complex, const double* points, bool replace_planes,
-                        std::span<double> determinants) {
+void solve_simplices_of(SimplicialComplex& complex, const double* points,
+                        std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
   const std::size_t lanes = hn::Lanes(Tag());
   for_each_block(complex.row_count, kSimplicesInBlock, [&](std::size_t first, std::size_t last) {
     std::vector<const double*> rows(lanes * D);
     std::vector<double> dual(lanes * D), determinant(lanes);
+    std::vector<std::uint8_t> is_replaced(lanes);
     for (std::size_t begin = first; begin < last; begin += lanes) {
       const std::size_t used = std::min(lanes, last - begin);
+      bool replaces = false;
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
         const auto vertices = complex.vertices(simplex);
         for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
+        if (is_shifted.empty()) continue;
+        std::uint8_t any = 0;
+        for (const PointId id : vertices) any |= is_shifted[id.value];
+        is_replaced[lane] = any;
+        replaces = replaces || any != 0;
       }
       // Planes that are not to be replaced say whether pivots are needed.
-      if (!replace_planes) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
-      if (replace_planes || !agree<D>(complex, begin, used, dual.data(), lanes)) {
+      if (!replaces) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
+      if (replaces || !agree<D>(complex, begin, used, dual.data(), lanes)) {
         solve_block<D, true>(rows.data(), dual.data(), determinant.data());
       }
       for (std::size_t lane = 0; lane < used; ++lane) {
         // A zero pivot, of a simplex without volume, turns into NaN further down.
         determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;
       }
-      if (!replace_planes) continue;
+      if (!replaces) continue;
       for (std::size_t lane = 0; lane < used; ++lane) {
+        if (!is_replaced[lane]) continue;
         take_plane<D>(complex.planes.data() + (begin + lane) * D, dual.data() + lane, lanes);
       }
     }
@@ -230,15 +255,15 @@ void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::
 }
 
 void mark_flat_any(const SimplicialComplex& complex, const double* points, double tolerance,
-                   std::span<std::uint8_t> is_flat) {
-  call_with_dimension<2, kMaxRank>(complex.rank,
-                                   [&](auto d) { mark_flat_of<d>(complex, points, tolerance, is_flat); });
+                   std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
+  call_with_dimension<2, kMaxRank>(
+      complex.rank, [&](auto d) { mark_flat_of<d>(complex, points, tolerance, looks_at, is_flat); });
 }
 
-void solve_simplices_any(SimplicialComplex& complex, const double* points, bool replace_planes,
-                         std::span<double> determinants) {
+void solve_simplices_any(SimplicialComplex& complex, const double* points,
+                         std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
   call_with_dimension<2, kMaxRank>(
-      complex.rank, [&](auto d) { solve_simplices_of<d>(complex, points, replace_planes, determinants); });
+      complex.rank, [&](auto d) { solve_simplices_of<d>(complex, points, is_shifted, determinants); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -264,13 +289,13 @@ void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span
 }
 
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
-               std::span<std::uint8_t> is_flat) {
-  HWY_DYNAMIC_DISPATCH(mark_flat_any)(complex, points, tolerance, is_flat);
+               std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
+  HWY_DYNAMIC_DISPATCH(mark_flat_any)(complex, points, tolerance, looks_at, is_flat);
 }
 
-void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,
-                     std::span<double> determinants) {
-  HWY_DYNAMIC_DISPATCH(solve_simplices_any)(complex, points, replace_planes, determinants);
+void solve_simplices(SimplicialComplex& complex, const double* points,
+                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
+  HWY_DYNAMIC_DISPATCH(solve_simplices_any)(complex, points, is_shifted, determinants);
 }
 
 }  // namespace ndhull

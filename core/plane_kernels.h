@@ -29,13 +29,14 @@ void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span
               std::span<const double> points, std::span<const std::uint32_t> row_of_point,
               std::span<double> low, std::span<double> high);
 
-/// Marks the simplices that have a flat ridge: one across which the opposite vertex of either side is less
-/// than `tolerance` (a gauge) below the other side's plane.
+/// Marks both sides of the flat ridges of some simplices: those across which the opposite vertex of either
+/// side is less than `tolerance` (a gauge) below the other side's plane.
 ///
-/// Shapes  points: any number of rows x rank; is_flat: row_count, 1 for such a simplex.
-/// Cost    rank plane evaluations and rank random reads of neighbours a simplex.
+/// Shapes  points: any number of rows x rank; looks_at: row_count, not 0 for the simplices to look at; is_flat:
+///         row_count, set to 1 for each simplex found, else untouched.
+/// Cost    rank plane evaluations and rank random reads of neighbours a simplex looked at.
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
-               std::span<std::uint8_t> is_flat);
+               std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat);
 
 /// Solves for the plane through each simplex's own vertices and the volume of its cone to the origin.
 ///
@@ -43,13 +44,14 @@ void mark_flat(const SimplicialComplex& complex, const double* points, double to
 /// vertex
 ///         rows = +-rank! times the volume of the cone. The rows are oriented alike, so the sign is the same
 ///         for all but simplices that are folded back over others; with signs their sum is right even then.
-/// Planes  with `replace_planes` the complex's planes (made from shifted points) are replaced by the solved
+/// Planes  of simplices with a shifted vertex (`is_shifted`, one a point; empty: none) are replaced by the
+/// solved
 ///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
 ///         has no plane of its own to speak of.
 /// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination, with partial pivoting where
 /// planes are
 ///         replaced or where without it the solved plane differs from growth's by more than 1e-11.
-void solve_simplices(SimplicialComplex& complex, const double* points, bool replace_planes,
-                     std::span<double> determinants);
+void solve_simplices(SimplicialComplex& complex, const double* points,
+                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 
 }  // namespace ndhull
