@@ -10,9 +10,8 @@ namespace {
 constexpr std::uint64_t kRepairRounds = 8;
 /// Points further inside than this need no look at their distance from each plane. [ratio]
 constexpr double kWellInside = 1e-9;
-/// Points from which on an early proof pays; of those that are looked at first, one of so many has to be
-/// inside.
-constexpr std::size_t kManyPoints = 4096, kLookedAtFirst = 512, kWorthProving = 8;
+/// Points that take part in growth from the beginning.
+constexpr std::size_t kPointsAtFirst = 4096;
 /// A hull of more simplices than this has vertices that some of the points do not stand for. So has one that
 /// one of so many points is inside.
 constexpr std::size_t kManyRowsFromSome = 1 << 14, kHardlyAny = 64;
@@ -50,7 +49,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       start_(start),
       hull_(hull),
       limits_(options.limits, start, options.accuracy.facets > 0) {
-  coordinates_.resize(points_.rows * frame_.rank + 8);
+  coordinates_ = HugeArray<double>(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
   work_.options.gradient_factor = std::move(gradient_factor);
   detail("frame", start_);
@@ -80,7 +79,12 @@ void CertifiedGrowth::make_segment() {
 
 GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   const std::uint64_t rows = work_.complex.row_count - work_.free_count;
-  record_progress(points_left, furthest, rows);
+  points_left += work_.waiting.size();
+  // Points that wait may be further; of some it is not known how far.
+  if (std::isfinite(work_.waiting_height)) {
+    furthest = std::max(furthest, work_.waiting_height);
+    record_progress(points_left, furthest, rows);
+  }
   tell(Phase::kGrowth, points_left, furthest);
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
   // Once a point was shifted simplices will be merged, which takes memory.
@@ -93,7 +97,6 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
 /// The furthest point's height whenever the hull has grown by half. An earlier height is never exceeded: the
 /// hull only grows.
 void CertifiedGrowth::record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices) {
-  if (work_.options.stride > 1) return;  // points that are not grown from may be further
   std::vector<GrowthRecord>& curve = hull_.statistics.growth_curve;
   if (!curve.empty() && simplices < curve.back().simplices + curve.back().simplices / 2) return;
   if (!curve.empty()) furthest = std::min(furthest, curve.back().furthest);
@@ -109,7 +112,7 @@ void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthe
 
 /// Coordinates, outside sets, flags, and what a proof lists of each point.
 std::uint64_t CertifiedGrowth::point_bytes() const {
-  return coordinates_.size() * 8 + points_.rows * (12 + 2 + sizeof(LocatedPoint));
+  return coordinates_.capacity() * 8 + points_.rows * (12 + 2 + sizeof(LocatedPoint));
 }
 
 void CertifiedGrowth::start() {
@@ -122,31 +125,17 @@ void CertifiedGrowth::start() {
   work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
+  const Clock::time_point begin = Clock::now();
   ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
-  begin();
-}
-
-void CertifiedGrowth::begin() {
-  const Clock::time_point start = Clock::now();
-  start_growth(work_, frame_.simplex);
-  detail("first partition", start);
-  if (points_.rows > kManyPoints) prove_early();
-}
-
-void CertifiedGrowth::grow_from_some() {
-  constexpr std::size_t kWorthSome = 1 << 15, kStride = 16;
-  if (points_.rows >= kWorthSome) work_.options.stride = kStride;
-}
-
-void CertifiedGrowth::begin_with_all() {
-  work_.options.stride = 1;
-  work_.free_count = 0;
-  work_.points_outside = 0;
-  work_.pending.clear();
-  work_.counters = GrowthCounters{};
-  proven_.clear();  // inside a hull that is thrown away
-  proven_count_ = 0;
-  begin();
+  // A limit on facets ends growth at any time: then the furthest of all points has to come first.
+  const bool may_wait = options_.limits.max_facets == 0;
+  constexpr std::size_t kStride = 16;
+  FirstPoints first;
+  if (may_wait && grows_from_some_) first.stride = kStride;
+  if (may_wait && !grows_from_some_) first.most = kPointsAtFirst;
+  start_growth(work_, frame_.simplex, first);
+  detail("first partition", begin);
+  if (!work_.waiting.empty()) grow_before_placing();
 }
 
 void CertifiedGrowth::grow_exactly() {
@@ -171,23 +160,26 @@ void CertifiedGrowth::grow_exactly() {
   report_counters();
 }
 
+void CertifiedGrowth::grow_from_some() {
+  constexpr std::size_t kWorthSome = 1 << 15;
+  grows_from_some_ = points_.rows >= kWorthSome;
+}
+
 bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, double enough_height) {
   work_.options.outside_width = outside_width;
-  const bool is_first = !has_started_;
-  if (is_first) start();
-  const Clock::time_point begin = Clock::now();
-  GrowthStop stop = GrowthStop::kPaused;
-  if (is_first && work_.options.stride > 1) {
+  if (!has_started_) start();
+  Clock::time_point begin = Clock::now();
+  if (!work_.waiting.empty()) {
     work_.options.pause_rows = kManyRowsFromSome;
-    stop = grow(work_);
+    const bool is_large = grow(work_) == GrowthStop::kPaused;
     work_.options.pause_rows = 0;
-    if (stop == GrowthStop::kPaused) begin_with_all();
+    seconds(Phase::kGrowth) += seconds_since(begin);
+    if (is_large) place_waiting();
+    begin = Clock::now();
   }
-  if (stop == GrowthStop::kPaused) {
-    work_.options.pause_rows = enough_rows;
-    work_.options.pause_height = enough_height;
-    stop = grow(work_);
-  }
+  work_.options.pause_rows = enough_rows;
+  work_.options.pause_height = enough_height;
+  const GrowthStop stop = grow(work_);
   work_.options.pause_rows = 0;
   work_.options.pause_height = HUGE_VAL;
   hull_.status = status_of(stop);
@@ -248,6 +240,8 @@ bool CertifiedGrowth::is_late() {
 }
 
 void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
+  work_.waiting.clear();  // the caller has looked at all
+  work_.waiting_height = 0.0;
   for (const LocatedPoint& point : points) {
     push_outside(work_, point.point.value, point.simplex.value,
                  height_above(work_, point.simplex.value, point.gauge));
@@ -288,36 +282,65 @@ void CertifiedGrowth::report_counters() {
   }
 }
 
-/// Most of many points are well inside a small hull already. What is proven inside a part of the hull is
-/// inside the whole, and the part's simplices are few and in cache.
-void CertifiedGrowth::prove_early() {
-  Clock::time_point begin = Clock::now();
+/// A small hull, to place the waiting points in.
+void CertifiedGrowth::grow_before_placing() {
+  const Clock::time_point begin = Clock::now();
   work_.options.pause_rows = 128 * frame_.rank;
   const GrowthStop stop = grow(work_);
   work_.options.pause_rows = 0;
   seconds(Phase::kGrowth) += seconds_since(begin);
-  if (stop != GrowthStop::kPaused) return;  // finished, or ended by a limit: the final proof comes next
-  begin = Clock::now();
-  const std::vector<PointId> candidates = points_off_the_complex();
-  const auto try_points = [&](const std::vector<PointId>& ids) {
-    return try_inside(work_.complex, coordinates_.data(), ball_, ids);
-  };
-  const auto is_inside = [](const LocatedPoint& point) { return point.gauge < -kWellInside; };
+  // Ended by a limit: the final proof comes next.
+  if (stop != GrowthStop::kPaused && stop != GrowthStop::kNoOutsidePoints) return;
+  if (!grows_from_some_ || holds_some_waiting()) place_waiting();
+}
+
+/// Are more than hardly any of the waiting points well inside?
+bool CertifiedGrowth::holds_some_waiting() {
+  constexpr std::size_t kLookedAt = 512;
   std::vector<PointId> some;
-  for (std::size_t i = 0; i < candidates.size(); i += 1 + candidates.size() / kLookedAtFirst)
-    some.push_back(candidates[i]);
-  const std::vector<LocatedPoint> first = try_points(some);
-  const auto inside = static_cast<std::size_t>(std::count_if(first.begin(), first.end(), is_inside));
-  if (work_.options.stride > 1 && inside * kHardlyAny >= some.size()) return begin_with_all();
-  if (inside * kWorthProving >= some.size()) {
-    proven_.assign(points_.rows, false);
-    for (const LocatedPoint& point : try_points(candidates)) {
-      if (!is_inside(point)) continue;
-      proven_[point.point.value] = true;
-      ++proven_count_;
+  for (std::size_t i = 0; i < work_.waiting.size(); i += 1 + work_.waiting.size() / kLookedAt)
+    some.push_back(PointId{work_.waiting[i]});
+  const std::vector<LocatedPoint> located = try_inside(work_.complex, coordinates_.data(), ball_, some);
+  const auto inside = std::count_if(located.begin(), located.end(),
+                                    [](const LocatedPoint& point) { return point.gauge < -kWellInside; });
+  return static_cast<std::size_t>(inside) * kHardlyAny >= some.size();
+}
+
+/// Most of many points are well inside a small hull already. What is proven inside a part of the hull is
+/// inside the whole, and the part's simplices are few and in cache. The others go to outside sets.
+void CertifiedGrowth::place_waiting() {
+  constexpr std::size_t kChunk = std::size_t{1} << 14;  // what they take is in cache, and taken again
+  const Clock::time_point begin = Clock::now();
+  proven_.assign(points_.rows, false);
+  std::vector<PointId> chunk;
+  for (std::size_t first = 0; first < work_.waiting.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, work_.waiting.size() - first);
+    chunk.resize(count);
+    for (std::size_t i = 0; i < count; ++i) chunk[i] = PointId{work_.waiting[first + i]};
+    for (const LocatedPoint& point : try_inside(work_.complex, coordinates_.data(), ball_, chunk)) {
+      if (point.gauge < -kWellInside) {
+        proven_[point.point.value] = true;
+        ++proven_count_;
+      } else {
+        push_if_outside(point);
+      }
     }
   }
+  work_.waiting = std::vector<std::uint32_t>();
+  work_.waiting_height = 0.0;
   seconds(Phase::kCertify) += seconds_since(begin);
+}
+
+/// Into an outside set, when it is more than the shift and W above its simplex.
+bool CertifiedGrowth::push_if_outside(const LocatedPoint& point) {
+  double gauge = -1.0;
+  const auto plane = work_.complex.plane(point.simplex);
+  for (std::size_t k = 0; k < frame_.rank; ++k)
+    gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
+  const double height = height_above(work_, point.simplex.value, gauge);
+  if (gauge <= 2.0 * work_.options.shift || height <= least_height(work_)) return false;
+  push_outside(work_, point.point.value, point.simplex.value, height);
+  return true;
 }
 
 /// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
@@ -338,15 +361,7 @@ std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
 bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
   bool any = false;
   for (const LocatedPoint& point : located) {
-    if (point.gauge <= 4.0 * work_.options.shift) continue;
-    double gauge = -1.0;
-    const auto plane = work_.complex.plane(point.simplex);
-    for (std::size_t k = 0; k < frame_.rank; ++k)
-      gauge += plane[k] * coordinates_[point.point.value * frame_.rank + k];
-    const double height = height_above(work_, point.simplex.value, gauge);
-    if (gauge <= 2.0 * work_.options.shift || height <= least_height(work_)) continue;
-    push_outside(work_, point.point.value, point.simplex.value, height);
-    any = true;
+    if (point.gauge > 4.0 * work_.options.shift) any = push_if_outside(point) || any;
   }
   return any;
 }

@@ -76,20 +76,21 @@ class CertifiedGrowth {
   std::vector<std::uint32_t> take_certificate_order() { return std::move(certificate_order_); }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
-  void release_coordinates() { coordinates_ = std::vector<double>(); }
+  void release_coordinates() { coordinates_ = HugeArray<double>(); }
   /// A segment: rank 1 has no growth.
   void make_segment();
 
  private:
   void start();
-  void begin();
-  void begin_with_all();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
   std::uint64_t point_bytes() const;
   void tell(Phase phase, std::uint64_t points_left, double furthest) const;
-  void prove_early();
+  void grow_before_placing();
+  bool holds_some_waiting();
+  void place_waiting();
+  bool push_if_outside(const LocatedPoint& point);
   std::vector<PointId> points_off_the_complex();
   bool repair(const std::vector<LocatedPoint>& located);
   void list_left_out(const std::vector<LocatedPoint>& located);
@@ -101,11 +102,11 @@ class CertifiedGrowth {
   const HullOptions& options_;
   Clock::time_point start_;
   Hull& hull_;
-  std::vector<double> coordinates_;  // points x rank, in the frame
+  HugeArray<double> coordinates_;  // points x rank, in the frame
   GrowthWork work_;
   HullBall ball_;
   WorkLimits limits_;
-  bool has_started_ = false;
+  bool has_started_ = false, grows_from_some_ = false;
   std::vector<bool> certificate_wanted_;
   std::vector<std::uint32_t> certificate_order_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early

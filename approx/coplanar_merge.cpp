@@ -252,7 +252,8 @@ class Merger {
     if (cluster_of_[simplex] == kNone) {
       cluster_of_[simplex] = static_cast<std::uint32_t>(clusters_.size());
       const auto vertices = complex_.vertices(SimplexId{simplex});
-      clusters_.push_back({cluster_of_[simplex], {simplex}, plane(simplex), {vertices.begin(), vertices.end()}});
+      clusters_.push_back(
+          {cluster_of_[simplex], {simplex}, plane(simplex), {vertices.begin(), vertices.end()}});
       std::sort(clusters_.back().points.begin(), clusters_.back().points.end());
     }
     has_flat_ridge_[simplex] = 1;

@@ -209,7 +209,7 @@ class Reduction {
     ball_.reach = std::max(ball_.reach, reach);
     ellipsoid_ = InnerEllipsoid(frame_, coordinates_.data(), view.rows, reach);
     work_.rank = dimension;
-    start_growth(work_, frame_.simplex);
+    start_growth(work_, frame_.simplex, FirstPoints());
     return true;
   }
 

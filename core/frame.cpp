@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/greedy_simplex.h"
 
 namespace ndhull {
 namespace {
@@ -60,78 +61,10 @@ double column_scale(double low, double high) {
   return std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
 }
 
-/// Greedy simplex in scaled coordinates z = scale (x - middle).
-struct GreedySimplex {
-  std::vector<PointId> points;
-  Matrix directions;  // rank x dimension, orthonormal, in z
-};
-
-/// Row furthest from the span so far, and how far it is.
-struct Furthest {
-  std::uint32_t row = 0;
-  double distance = 0.0;
-};
-
-/// Takes the part along `direction` (unit, or zero for the first step) out of every row and finds the longest
-/// rest. One pass: the rows are what does not fit in cache.
-Furthest reduce(Matrix& residuals, const Eigen::RowVectorXd& direction) {
-  const std::size_t width = static_cast<std::size_t>(residuals.cols());
-  double best = -1.0;
-  Furthest furthest;
-  for (Eigen::Index row = 0; row < residuals.rows(); ++row) {
-    double* values = residuals.row(row).data();
-    double along = 0.0, length_sq = 0.0;
-    for (std::size_t k = 0; k < width; ++k) along += values[k] * direction.data()[k];
-    for (std::size_t k = 0; k < width; ++k) {
-      values[k] -= along * direction.data()[k];
-      length_sq += values[k] * values[k];
-    }
-    if (length_sq > best) {
-      best = length_sq;
-      furthest.row = static_cast<std::uint32_t>(row);
-    }
-  }
-  furthest.distance = std::sqrt(std::max(best, 0.0));
-  return furthest;
-}
-
 /// Of more points than this some are enough for a simplex, if no dual vertex of it times any point is longer
 /// than that.
 constexpr std::size_t kManyPoints = 1 << 15, kSample = 1 << 12;
 constexpr double kSampleShape = 200.0;
-
-/// `tolerance`: a distance from the span below this is the rounding of the input.
-GreedySimplex choose_simplex(Matrix residuals, double tolerance) {
-  const Eigen::Index dimension = residuals.cols();
-  GreedySimplex simplex;
-  simplex.directions.resize(dimension, dimension);
-  const Eigen::RowVectorXd mean = residuals.colwise().mean();
-  std::uint32_t first = 0;
-  double first_distance_sq = -1.0;
-  for (Eigen::Index row = 0; row < residuals.rows(); ++row) {
-    const double distance_sq = (residuals.row(row) - mean).squaredNorm();
-    if (distance_sq <= first_distance_sq) continue;
-    first_distance_sq = distance_sq;
-    first = static_cast<std::uint32_t>(row);
-  }
-  simplex.points.push_back(PointId{first});
-  const Eigen::RowVectorXd origin = residuals.row(first);
-  residuals.rowwise() -= origin;
-  Eigen::RowVectorXd direction = Eigen::RowVectorXd::Zero(dimension);
-  for (Eigen::Index step = 0; step < dimension; ++step) {
-    const Furthest furthest = reduce(residuals, direction);
-    if (furthest.distance <= tolerance) break;
-    direction = residuals.row(furthest.row) / furthest.distance;
-    // Twice is enough (Kahan; Parlett. The Symmetric Eigenvalue Problem, 1980, sec. 6-9).
-    const auto found = simplex.directions.topRows(step);
-    direction -= (direction * found.transpose()) * found;
-    direction.normalize();
-    simplex.directions.row(step) = direction;
-    simplex.points.push_back(PointId{furthest.row});
-  }
-  simplex.directions.conservativeResize(static_cast<Eigen::Index>(simplex.points.size()) - 1, dimension);
-  return simplex;
-}
 
 /// Largest product of a dual vertex of the simplex with a point of it, or of length `reach` if that is more.
 /// Of its own points: 1 / relative height of the worst facet.
@@ -240,14 +173,11 @@ Frame fit_frame(const PointView& points) {
   const double tolerance = 8.0 * static_cast<double>(dimension) * kRoundoff * (1.0 + input_rounding);
   // Of every step-th point.
   const auto simplex_of = [&](std::size_t step) {
-    Matrix scaled((points.rows + step - 1) / step, dimension);
-    for (std::size_t row = 0; row < points.rows; row += step) {
-      for (std::size_t k = 0; k < dimension; ++k) {
-        const auto at = static_cast<Eigen::Index>(k);
-        scaled(static_cast<Eigen::Index>(row / step), at) = (points.at(row, k) - middle[at]) * scale[at];
-      }
-    }
-    GreedySimplex chosen = choose_simplex(std::move(scaled), tolerance);
+    PointView some = points;
+    some.rows = (points.rows + step - 1) / step;
+    some.row_stride *= step;
+    GreedySimplex chosen =
+        choose_simplex(some, {middle.data(), dimension}, {scale.data(), dimension}, tolerance);
     for (PointId& id : chosen.points) id.value *= static_cast<std::uint32_t>(step);
     return chosen;
   };
@@ -280,6 +210,7 @@ Frame fit_frame(const PointView& points) {
 
   const auto rank = static_cast<Eigen::Index>(frame.rank);
   const auto columns = static_cast<Eigen::Index>(dimension);
+  const Eigen::Map<const Matrix> directions(simplex.directions.data(), rank, columns);
   Matrix map = Matrix::Zero(rank, columns);
   const auto varying = static_cast<std::size_t>((scale.array() != 0.0).count());
   if (varying == frame.rank) {
@@ -288,7 +219,7 @@ Frame fit_frame(const PointView& points) {
     }
     frame.is_diagonal = true;
   } else {
-    map = simplex.directions * scale.asDiagonal();
+    map = directions * scale.asDiagonal();
   }
   Matrix vertices(rank + 1, columns);
   for (Eigen::Index row = 0; row <= rank; ++row) {
@@ -314,7 +245,7 @@ Frame fit_frame(const PointView& points) {
   frame.map.assign(map.data(), map.data() + map.size());
 
   if (frame.rank < dimension) {
-    const Matrix basis = directions_in_input_units(simplex.directions, scale);
+    const Matrix basis = directions_in_input_units(directions, scale);
     frame.basis.assign(basis.data(), basis.data() + basis.size());
   }
   return frame;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/blocks.h"
 #include "core/error.h"
@@ -34,6 +35,39 @@ void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, doub
   Eigen::VectorXd dual = factors.solve(ones);
   dual += factors.solve(ones - rows * dual);
   std::copy_n(dual.data(), work.rank, plane);
+}
+
+/// Where a point is over the first simplex.
+struct Place {
+  std::uint32_t row;
+  double height;  // 0: inside
+};
+
+Place place_in_simplex(const GrowthWork& work, std::uint32_t id) {
+  const double* point = work.points + std::size_t{id} * work.rank;
+  double best = -HUGE_VAL;
+  std::uint32_t best_row = 0;
+  for (std::uint32_t row = 0; row <= work.rank; ++row) {
+    double gauge = -1.0;
+    for (std::size_t k = 0; k < work.rank; ++k) gauge += work.complex.planes[row * work.rank + k] * point[k];
+    if (gauge > best) {
+      best = gauge;
+      best_row = row;
+    }
+  }
+  if (best <= 2.0 * work.options.shift) return {0, 0.0};
+  return {best_row, height_above(work, best_row, best)};
+}
+
+/// A height over the first simplex that about `few` points reach, from a sample of all.
+double height_of_few(const GrowthWork& work, std::size_t few) {
+  constexpr std::size_t kSample = 4096;
+  std::vector<double> heights;
+  for (std::size_t id = 0; id < work.point_count; id += 1 + work.point_count / kSample)
+    heights.push_back(place_in_simplex(work, static_cast<std::uint32_t>(id)).height);
+  const auto place = static_cast<std::ptrdiff_t>(heights.size() * few / work.point_count);
+  std::nth_element(heights.begin(), heights.begin() + place, heights.end(), std::greater<>());
+  return heights[static_cast<std::size_t>(place)];
 }
 
 }  // namespace
@@ -70,7 +104,7 @@ void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, doub
   ++work.points_outside;
 }
 
-void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
+void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first) {
   const std::size_t capacity = row_capacity(work.rank);
   work.complex = SimplicialComplex(work.rank, capacity);
   work.free_rows = HugeArray<std::uint32_t>(capacity);
@@ -98,37 +132,25 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex) {
   for (const PointId id : simplex) is_vertex[id.value] = true;
   // A chunk at a time: places side by side, then into the outside sets in order.
   constexpr std::size_t kChunk = std::size_t{1} << 16, kPointsInBlock = 1024;
-  struct Place {
-    std::uint32_t row;
-    double height;  // 0: inside
-  };
+  const bool waits_for_low = first.most < work.point_count;
+  const double enough = waits_for_low ? height_of_few(work, first.most) : 0.0;
+  work.waiting_height = first.stride > 1 ? HUGE_VAL : enough;
   std::vector<Place> places(std::min(kChunk, work.point_count));
-  const std::size_t stride = work.options.stride;
-  const auto id_of = [stride](std::size_t i) { return static_cast<std::uint32_t>(i * stride); };
-  const auto place_of = [&](std::uint32_t id) -> Place {
-    const double* point = work.points + std::size_t{id} * work.rank;
-    double best = -HUGE_VAL;
-    std::uint32_t best_row = 0;
-    for (std::uint32_t row = 0; row <= work.rank; ++row) {
-      double gauge = -1.0;
-      for (std::size_t k = 0; k < work.rank; ++k) gauge += complex.planes[row * work.rank + k] * point[k];
-      if (gauge > best) {
-        best = gauge;
-        best_row = row;
-      }
-    }
-    if (best <= 2.0 * work.options.shift) return {0, 0.0};
-    return {best_row, height_above(work, best_row, best)};
-  };
-  const std::size_t wanted = (work.point_count + stride - 1) / stride;
-  for (std::size_t chunk = 0; chunk < wanted; chunk += kChunk) {
-    const std::size_t count = std::min(kChunk, wanted - chunk);
+  for (std::size_t chunk = 0; chunk < work.point_count; chunk += kChunk) {
+    const std::size_t count = std::min(kChunk, work.point_count - chunk);
     for_each_block(count, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) places[i] = place_of(id_of(chunk + i));
+      for (std::size_t i = begin; i < end; ++i)
+        if ((chunk + i) % first.stride == 0)
+          places[i] = place_in_simplex(work, static_cast<std::uint32_t>(chunk + i));
     });
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t id = id_of(chunk + i);
-      if (places[i].height > least && !is_vertex[id]) push_outside(work, id, places[i].row, places[i].height);
+      const auto id = static_cast<std::uint32_t>(chunk + i);
+      if (is_vertex[id]) continue;
+      if (places[i].height < enough || id % first.stride != 0) {
+        work.waiting.push_back(id);
+      } else if (places[i].height > least) {
+        push_outside(work, id, places[i].row, places[i].height);
+      }
     }
   }
 }

@@ -31,9 +31,6 @@ struct GrowthOptions {
   /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are. May be
   /// raised between calls of `grow`; what was left out before stays out.
   double outside_width = 0.0;
-  /// Of the points only every so-manieth is put into outside sets at first; the others are left out until
-  /// push_outside is called for them.
-  std::size_t stride = 1;
   /// rank x rank, row-major: |R a| is the gradient of the gauge above plane a, per length unit, so that a
   /// distance is a gauge / |R a|. Empty: how far outside a point is goes by its gauge, and no width may be
   /// set.
@@ -76,10 +73,12 @@ struct GrowthWork {
   HugeArray<std::uint32_t> free_rows;
   std::size_t free_count = 0;
 
-  std::vector<std::uint32_t> next_outside;  ///< per point: next of the same outside set + 1, 0 at the end
-  std::vector<double> height;               ///< per point: height above the simplex that holds it
-  std::vector<OutsideSet> pending;          ///< heap: the set with the furthest point of all comes first
-  std::uint64_t points_outside = 0;
+  std::vector<std::uint32_t> next_outside;    ///< per point: next of the same outside set + 1, 0 at the end
+  std::vector<double> height;                 ///< per point: height above the simplex that holds it
+  std::vector<OutsideSet> pending;            ///< heap: the set with the furthest point of all comes first
+  std::uint64_t points_outside = 0;           ///< in outside sets
+  std::vector<std::uint32_t> waiting;         ///< ascending; neither in an outside set nor known to be inside
+  double waiting_height = 0.0;                ///< no waiting point is further above the hull; may be +inf
   std::vector<std::uint32_t> shifted_points;  ///< those added moved inwards
 
   GrowthOptions options;
@@ -87,9 +86,16 @@ struct GrowthWork {
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
 };
 
-/// Makes the first simplex from rank + 1 affinely independent points around 0 and puts every other point
-/// into an outside set or drops it as inside.
-void start_growth(GrowthWork& work, std::span<const PointId> simplex);
+/// Which points growth begins with. Points placed early are moved again and again.
+struct FirstPoints {
+  std::size_t most = SIZE_MAX;  ///< about so many, the highest over the first simplex
+  std::size_t stride = 1;       ///< of the points only every so-manieth
+};
+
+/// Makes the first simplex from rank + 1 affinely independent points around 0. Puts the points of `first`
+/// into an outside set or drops them as inside; the others wait for the caller to place them in a hull that
+/// has grown.
+void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first);
 
 /// Adds outside points, the furthest of all first, until none are left or a limit is hit. May be called again
 /// after `push_outside`.

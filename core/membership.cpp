@@ -142,38 +142,49 @@ void prove_block(const SimplicialComplex& complex, const double* points, const H
   }
 }
 
-// Each query starts where the one before it ended, each block of queries at the first simplex.
+// Each query starts where the one before it ended, each block of queries at the first simplex. A vector of
+// those to prove is solved at a time.
 template <std::size_t D>
 void locate_all(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                const double* query_points, std::span<LocatedPoint> located) {
-  constexpr std::size_t kQueriesInBlock = 512;  // a multiple of all vectors' lanes
+                const double* query_points, bool proves_outside, std::span<LocatedPoint> located) {
+  constexpr std::size_t kQueriesInBlock = 512;
   const std::size_t lanes = hn::Lanes(Tag());
   SimplexId first{0};
   while (complex.state[first.value] != SimplexState::kLive) ++first.value;  // growth leaves free rows
   const StartingPlaces<D> places(complex);
-  for_each_block(located.size(), kQueriesInBlock, [&](std::size_t first_query, std::size_t last_query) {
-    SimplexId start = first;
-    for (std::size_t begin = first_query; begin < last_query; begin += lanes) {
-      LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
-      const std::size_t used = std::min(lanes, last_query - begin);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        block[lane] = located[begin + std::min(lane, used - 1)];
-        if (lane < used) {
-          const double* y = query_points + std::size_t{block[lane].point.value} * D;
-          start = climb<D>(complex, y, places.nearest(complex, y, start));
-        }
-        block[lane].simplex = start;
-      }
+  for_each_block(located.size(), kQueriesInBlock, [&](std::size_t begin, std::size_t end) {
+    LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
+    std::size_t query_of[HWY_MAX_BYTES / sizeof(double)];
+    std::size_t used = 0;
+    const auto prove = [&] {
+      for (std::size_t lane = used; lane < lanes; ++lane) block[lane] = block[used - 1];
       prove_block<D>(complex, points, ball, query_points, block);
-      std::copy_n(block, used, located.begin() + static_cast<std::ptrdiff_t>(begin));
+      for (std::size_t lane = 0; lane < used; ++lane) located[query_of[lane]] = block[lane];
+      used = 0;
+    };
+    SimplexId start = first;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double* y = query_points + std::size_t{located[i].point.value} * D;
+      start = climb<D>(complex, y, places.nearest(complex, y, start));
+      located[i].simplex = start;
+      if (!proves_outside) {
+        const double height = dot<D>(complex.plane(start).data(), y) - 1.0;
+        located[i].gauge = height;
+        if (height > 0.0) continue;
+      }
+      block[used] = located[i];
+      query_of[used++] = i;
+      if (used == lanes) prove();
     }
+    if (used > 0) prove();
   });
 }
 
 void locate_any(const SimplicialComplex& complex, const double* points, const HullBall& ball,
-                const double* query_points, std::span<LocatedPoint> located) {
-  call_with_dimension<2, kMaxRank>(
-      complex.rank, [&](auto d) { locate_all<d>(complex, points, ball, query_points, located); });
+                const double* query_points, bool proves_outside, std::span<LocatedPoint> located) {
+  call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) {
+    locate_all<d>(complex, points, ball, query_points, proves_outside, located);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -284,6 +295,13 @@ class Walker {
   Eigen::Index rank_;
 };
 
+std::vector<LocatedPoint> unlocated(std::span<const PointId> queries) {
+  std::vector<LocatedPoint> located;
+  located.reserve(queries.size());
+  for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL, HUGE_VAL});
+  return located;
+}
+
 }  // namespace
 
 HullBall find_ball(std::size_t rank, const double* points, std::size_t point_count,
@@ -315,10 +333,8 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 
 std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const double* points,
                                      const HullBall& ball, std::span<const PointId> queries) {
-  std::vector<LocatedPoint> located;
-  located.reserve(queries.size());
-  for (const PointId query : queries) located.push_back({query, SimplexId{0}, HUGE_VAL, HUGE_VAL});
-  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, points, located);
+  std::vector<LocatedPoint> located = unlocated(queries);
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, points, false, located);
   return located;
 }
 
@@ -326,13 +342,14 @@ void try_inside(const SimplicialComplex& complex, const double* points, const Hu
                 const double* query_points, std::span<LocatedPoint> located) {
   for (std::uint32_t row = 0; row < located.size(); ++row)
     located[row] = {PointId{row}, SimplexId{0}, HUGE_VAL, HUGE_VAL};
-  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, query_points, located);
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, query_points, false, located);
 }
 
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
                                        const HullBall& ball, std::span<const PointId> queries, double useful,
                                        std::uint64_t& searched_all) {
-  std::vector<LocatedPoint> located = try_inside(complex, points, ball, queries);
+  std::vector<LocatedPoint> located = unlocated(queries);
+  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, points, true, located);
   const Walker walker(complex, points, ball, useful);
   for_each_block(located.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -46,7 +46,8 @@ std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const d
                                        const HullBall& ball, std::span<const PointId> queries, double useful,
                                        std::uint64_t& searched_all);
 
-/// The same with hill climbing alone: what is not proven at once is +inf or far too large.
+/// The same with hill climbing alone: what is not proven at once is +inf or far too large. Points above the
+/// simplex found are not proven at all: their slack is +inf, their gauge how far they are above it.
 std::vector<LocatedPoint> try_inside(const SimplicialComplex& complex, const double* points,
                                      const HullBall& ball, std::span<const PointId> queries);
 /// The same for queries that are no points of the hull: located.size() x rank coordinates. Entry i is for row

@@ -32,7 +32,8 @@ void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span
 /// Marks both sides of the flat ridges of some simplices: those across which the opposite vertex of either
 /// side is less than `tolerance` (a gauge) below the other side's plane.
 ///
-/// Shapes  points: any number of rows x rank; looks_at: row_count, not 0 for the simplices to look at; is_flat:
+/// Shapes  points: any number of rows x rank; looks_at: row_count, not 0 for the simplices to look at;
+/// is_flat:
 ///         row_count, set to 1 for each simplex found, else untouched.
 /// Cost    rank plane evaluations and rank random reads of neighbours a simplex looked at.
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
