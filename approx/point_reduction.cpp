@@ -182,7 +182,7 @@ class Reduction {
     work.points = coordinates.data();
     work.options.seed = work_.options.seed;
     work.options.pause_rows = kFirstRows * dimension;
-    start_growth(work, frame.simplex);
+    start_growth(work, frame.simplex, FirstPoints());
     grow(work);
     std::vector<PointId> ids;
     for (std::uint32_t row = 0; row < view.rows; ++row) ids.push_back(PointId{row});
