@@ -74,9 +74,12 @@ void Approximation::grow_outside_width() {
   if (width > 0.0) growth_.grow_from_some();  // a search over all follows
   bool has_finished = growth_.grow_to(width, 0, 0.0);
   if (has_finished && width > 0.0) {
-    // Where most points are inside, proving that leaves few to search. Merging has to know where they are.
+    // Where most points are inside, proving that leaves few to search. Merging has to know where they are. To
+    // locate a point takes about as long as to search them all for one plane, which is done twice for each.
     std::vector<PointId> points = growth_.unproven_points();
-    const bool is_located = accuracy_.merges_neighbours() || 2 * points.size() < growth_.work().point_count;
+    const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
+    const bool is_located = accuracy_.merges_neighbours() ||
+                            2 * points.size() < growth_.work().point_count || points.size() < planes;
     if (is_located) {
       locate_left_out(width);
       points.clear();
