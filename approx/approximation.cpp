@@ -9,7 +9,6 @@
 #include "approx/boundedness.h"
 #include "approx/cluster_merge.h"
 #include "approx/merge_rule.h"
-#include "approx/outside_points.h"
 
 namespace ndhull {
 namespace {
@@ -28,9 +27,7 @@ struct Reach {
 /// Growth aims at points this part of the facet width outside: what is left of the width then is free for
 /// merging. On spheres a quarter needs 1.15 times the facets that none would, a half 1.6 times.
 constexpr double kGrowthShare = 0.25;
-/// Once the hull has many simplices, this part will do.
-constexpr double kGrowthShareAtMost = 0.75;
-/// Simplices that are worth growing for an approximate hull. Merging takes about as long as growing them.
+/// Simplices that are worth growing for a target number. Merging takes about as long as growing them.
 constexpr std::uint64_t kManySimplices = 250'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
@@ -41,8 +38,8 @@ constexpr std::size_t kFewLeftOut = 1 << 17, kFewLeftOutForCount = 4096;
 /// Facets from which on neighbours are not tried again for what fits into one slab.
 constexpr std::size_t kFewFacets = 256;
 /// Rounds of smaller slabs and more growth before the best so far is taken; of a target number, in which the
-/// fits see more of the points left out; of putting back what is above W.
-constexpr int kRounds = 24, kCountRounds = 5, kSearchRounds = 96;
+/// fits see more of the points left out.
+constexpr int kRounds = 24, kCountRounds = 5;
 
 }  // namespace
 
@@ -61,44 +58,6 @@ FacetClusters Approximation::run() {
   if (lengths_.width > 0.0) return run_width();
   grow_outside_width();
   return accuracy_.merges_neighbours() && growth_.may_cover() ? run_merging() : FacetClusters{};
-}
-
-/// Where the points left out are, to a twentieth of what growth left out.
-void Approximation::locate_left_out(double outside_width) {
-  growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
-}
-
-void Approximation::grow_outside_width() {
-  const double width = lengths_.outside_width;
-  hull_.chosen.outside_width = width;
-  if (width > 0.0) growth_.grow_from_some();  // a search over all follows
-  bool has_finished = growth_.grow_to(width, 0, 0.0);
-  if (has_finished && width > 0.0) {
-    // Where most points are inside, proving that leaves few to search. Merging has to know where they are. To
-    // locate a point takes about as long as to search them all for one plane, which is done twice for each.
-    std::vector<PointId> points = growth_.unproven_points();
-    const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
-    const bool is_located = accuracy_.merges_neighbours() ||
-                            2 * points.size() < growth_.work().point_count || points.size() < planes;
-    if (is_located) {
-      locate_left_out(width);
-      points.clear();
-      for (const LocatedPoint& point : growth_.left_out()) points.push_back(point.point);
-    }
-    OutsideSearch search(growth_, std::move(points));
-    bool has_grown = false;
-    for (int round = 0; round < kSearchRounds && has_finished && search.put_back_above(width); ++round) {
-      has_finished = growth_.grow_to(width, 0, 0.0);
-      has_grown = true;
-    }
-    if (has_finished && !is_located) growth_.certify_unproven(search.largest_gauge(), search.take_order());
-    if (has_finished && !(is_located && has_grown)) return;
-  }
-  locate_left_out(width);
-  for (int round = 0; round < kRounds && has_finished && growth_.repair(); ++round) {
-    has_finished = growth_.grow_to(width, 0, 0.0);
-    locate_left_out(width);
-  }
 }
 
 // Many simplices are gathered into slabs first, each well inside what the rule and the cap allow: merging
@@ -289,8 +248,7 @@ FacetClusters Approximation::run_width() {
   Covering covering;
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
-    const std::uint64_t enough = lengths_.outside_width > 0.0 ? 0 : kManySimplices;
-    growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
+    grow_for_width(outside_width, slab);
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);

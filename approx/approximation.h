@@ -51,6 +51,7 @@ class Approximation {
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
   std::vector<LocatedPoint> add_offenders(const Covering& covering, const TrueWidths& widths, double width);
+  void grow_for_width(double outside_width, double slab);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();

@@ -5,6 +5,7 @@
 //   3 certify          core/membership      every point proven inside, or put back: growth goes on
 //   4 merge            approx/coplanar_merge  simplices on one plane become one facet
 //   5 facet table      approx/facet_table   planes in input units, outer and inner offsets proven, areas
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include "approx/reduced_points.h"
 #include "approx/sharded_hull.h"
 #include "approx/volume_cover.h"
+#include "core/blocks.h"
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -36,6 +38,12 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void append(const IdRows& rows, IdRows& all) {
+  const auto size = static_cast<std::uint32_t>(all.values.size());
+  for (std::size_t row = 1; row < rows.begin.size(); ++row) all.begin.push_back(size + rows.begin[row]);
+  all.values.insert(all.values.end(), rows.values.begin(), rows.values.end());
 }
 
 }  // namespace
@@ -211,34 +219,60 @@ class HullBuilder {
 
   /// Vertices and neighbours of the facets that are merged or have a merged neighbour.
   void list_irregular_facets() {
+    constexpr std::size_t kFacetsAtATime = 512;
+    /// Which facet met a vertex or facet last.
+    struct Seen {
+      std::vector<std::uint32_t> vertex, facet;
+    };
     const FacetLayout& layout = hull_.layout_;
-    std::vector<std::uint32_t> seen_vertex(points_.rows, FacetId::kNone);
-    std::vector<std::uint32_t> seen_facet(layout.facets, FacetId::kNone);
-    IdRows& vertices = hull_.facet_vertices_;
-    IdRows& neighbours = hull_.facet_neighbours_;
-    for (std::uint32_t facet = static_cast<std::uint32_t>(layout.regular); facet < layout.facets; ++facet) {
-      const bool simplicial = hull_.is_simplicial(FacetId{facet});
-      seen_facet[facet] = facet;
-      for (const SimplexId simplex : hull_.simplices_of(FacetId{facet})) {
-        for (const PointId id : complex().vertices(simplex)) {
-          if (seen_vertex[id.value] == facet || !is_vertex_[id.value]) continue;
-          seen_vertex[id.value] = facet;
-          vertices.values.push_back(id.value);
-        }
-        for (const SimplexId neighbour : complex().neighbours(simplex)) {
-          const std::uint32_t other = layout.facet_of(neighbour).value;
-          if (!simplicial && seen_facet[other] == facet) continue;
-          seen_facet[other] = facet;
-          neighbours.values.push_back(other);
-        }
+    tbb::enumerable_thread_specific<Seen> seen_of_thread([&] {
+      return Seen{std::vector<std::uint32_t>(points_.rows, FacetId::kNone),
+                  std::vector<std::uint32_t>(layout.facets, FacetId::kNone)};
+    });
+    const std::size_t count = layout.facets - layout.regular;
+    struct Lists {
+      IdRows vertices, neighbours;
+    };
+    std::vector<Lists> lists((count + kFacetsAtATime - 1) / kFacetsAtATime);
+    for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+      Seen& seen = seen_of_thread.local();
+      Lists& block = lists[begin / kFacetsAtATime];
+      for (std::size_t i = begin; i < end; ++i) {
+        const FacetId facet{static_cast<std::uint32_t>(layout.regular + i)};
+        list_irregular_facet(facet, seen.vertex, seen.facet, block.vertices, block.neighbours);
       }
-      if (!simplicial) {
-        std::sort(vertices.values.begin() + vertices.begin.back(), vertices.values.end());
-        std::sort(neighbours.values.begin() + neighbours.begin.back(), neighbours.values.end());
-      }
-      vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
-      neighbours.begin.push_back(static_cast<std::uint32_t>(neighbours.values.size()));
+    });
+    for (Lists& block : lists) {
+      append(block.vertices, hull_.facet_vertices_);
+      append(block.neighbours, hull_.facet_neighbours_);
+      block = Lists();
     }
+  }
+
+  void list_irregular_facet(FacetId facet, std::vector<std::uint32_t>& seen_vertex,
+                            std::vector<std::uint32_t>& seen_facet, IdRows& vertices, IdRows& neighbours) {
+    const FacetLayout& layout = hull_.layout_;
+    const bool simplicial = hull_.is_simplicial(facet);
+    seen_facet[facet.value] = facet.value;
+    for (const SimplexId simplex : hull_.simplices_of(facet)) {
+      for (const PointId id : complex().vertices(simplex)) {
+        if (seen_vertex[id.value] == facet.value || !is_vertex_[id.value]) continue;
+        seen_vertex[id.value] = facet.value;
+        vertices.values.push_back(id.value);
+      }
+      for (const SimplexId neighbour : complex().neighbours(simplex)) {
+        const std::uint32_t other = layout.facet_of(neighbour).value;
+        if (!simplicial && seen_facet[other] == facet.value) continue;
+        seen_facet[other] = facet.value;
+        neighbours.values.push_back(other);
+      }
+    }
+    if (!simplicial) {
+      std::sort(vertices.values.begin() + vertices.begin.back(), vertices.values.end());
+      std::sort(neighbours.values.begin() + neighbours.begin.back(), neighbours.values.end());
+    }
+    vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
+    neighbours.begin.push_back(static_cast<std::uint32_t>(neighbours.values.size()));
   }
 
   const PointView& points_;

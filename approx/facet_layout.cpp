@@ -8,10 +8,23 @@ namespace ndhull {
 namespace {
 
 constexpr std::uint32_t kNone = FacetId::kNone;
+constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
 
-void permute_values(std::span<double> values, std::span<const std::uint32_t> old_of_new) {
-  const std::vector<double> old(values.begin(), values.end());
-  for (std::size_t row = 0; row < old_of_new.size(); ++row) values[row] = old[old_of_new[row]];
+/// Puts row old_of_new[r] of a table of `width` columns into row r, for the rows that old_of_new has; what
+/// was there is lost.
+void take_rows(std::span<double> table, std::size_t width, std::span<const std::uint32_t> old_of_new) {
+  std::vector<double> moved;
+  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
+    if (old_of_new[row] == row) continue;
+    const double* old = table.data() + std::size_t{old_of_new[row]} * width;
+    moved.insert(moved.end(), old, old + width);
+  }
+  const double* next = moved.data();
+  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
+    if (old_of_new[row] == row) continue;
+    std::copy_n(next, width, table.data() + std::size_t{row} * width);
+    next += width;
+  }
 }
 
 /// Simplices of merged facets, facet by facet, and those that have a ridge with one.
@@ -19,14 +32,31 @@ struct MergedRows {
   std::vector<std::uint32_t> merged, beside;
   std::vector<std::uint8_t> is_regular;      // per row
   std::vector<std::uint32_t> cluster_order;  // clusters in the order of their first simplex
+  std::vector<std::uint32_t> end;            // of each one's simplices in `merged`
 };
+
+/// Looks at the neighbours of whatever is less, what is merged or what is not.
+void find_rows_beside(const SimplicialComplex& complex, const FacetClusters& clusters,
+                      std::size_t merged_count, MergedRows& rows) {
+  const auto count = static_cast<std::uint32_t>(complex.row_count);
+  const bool asks_merged = 2 * merged_count < count;
+  for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
+    if ((clusters.cluster_of[simplex] != kNone) != asks_merged) continue;
+    for (const SimplexId neighbour : complex.neighbours(SimplexId{simplex})) {
+      if ((clusters.cluster_of[neighbour.value] != kNone) == asks_merged) continue;
+      const std::uint32_t beside = asks_merged ? neighbour.value : simplex;
+      if (rows.is_regular[beside]) rows.beside.push_back(beside);
+      rows.is_regular[beside] = 0;
+    }
+  }
+  std::sort(rows.beside.begin(), rows.beside.end());
+}
 
 MergedRows find_merged_rows(const SimplicialComplex& complex, const FacetClusters& clusters) {
   const auto count = static_cast<std::uint32_t>(complex.row_count);
   MergedRows rows;
   rows.is_regular.assign(count, 1);
   std::vector<std::uint32_t> place_of(clusters.count, kNone);
-  std::vector<std::uint32_t> begin;  // of each cluster's simplices, in that order
   std::size_t merged_count = 0;
   for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
     const std::uint32_t cluster = clusters.cluster_of[simplex];
@@ -36,21 +66,16 @@ MergedRows find_merged_rows(const SimplicialComplex& complex, const FacetCluster
     if (place_of[cluster] == kNone) {
       place_of[cluster] = static_cast<std::uint32_t>(rows.cluster_order.size());
       rows.cluster_order.push_back(cluster);
-      begin.push_back(0);
+      rows.end.push_back(0);
     }
-    ++begin[place_of[cluster]];
-    for (const SimplexId neighbour : complex.neighbours(SimplexId{simplex})) {
-      if (clusters.cluster_of[neighbour.value] != kNone || !rows.is_regular[neighbour.value]) continue;
-      rows.is_regular[neighbour.value] = 0;
-      rows.beside.push_back(neighbour.value);
-    }
+    ++rows.end[place_of[cluster]];
   }
-  std::sort(rows.beside.begin(), rows.beside.end());
-  std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+  find_rows_beside(complex, clusters, merged_count, rows);
+  std::exclusive_scan(rows.end.begin(), rows.end.end(), rows.end.begin(), 0u);
   rows.merged.resize(merged_count);
   for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
     const std::uint32_t cluster = clusters.cluster_of[simplex];
-    if (cluster != kNone) rows.merged[begin[place_of[cluster]]++] = simplex;
+    if (cluster != kNone) rows.merged[rows.end[place_of[cluster]]++] = simplex;
   }
   return rows;
 }
@@ -100,34 +125,38 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.regular = layout.simplicial - rows.beside.size();
   layout.facets = layout.simplicial + clusters.count;
   const std::vector<std::uint32_t> old_of_new = row_order(rows, layout.regular);
-  permute_rows(complex, old_of_new);
-  permute_values(determinants, old_of_new);
 
+  // Planes and determinants of merged simplices are needed for sums only.
   layout.area_vectors.assign(clusters.count * rank, 0.0);
-  std::uint32_t facet = 0;
+  layout.facet_of_merged.reserve(rows.merged.size());
   layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial));
-  for (std::size_t i = 0; i < rows.merged.size(); ++i) {
-    const std::size_t row = layout.simplicial + i;
-    const auto plane = complex.plane(SimplexId{static_cast<std::uint32_t>(row)});
-    for (std::size_t k = 0; k < rank; ++k)
-      layout.area_vectors[facet * rank + k] += determinants[row] * plane[k];
-    layout.merged_surface += determinants[row] * gradient_length(gradient_factor, plane);
-    layout.facet_of_merged.push_back(FacetId{static_cast<std::uint32_t>(layout.simplicial) + facet});
-    const bool is_last = i + 1 == rows.merged.size() ||
-                         clusters.cluster_of[rows.merged[i + 1]] != clusters.cluster_of[rows.merged[i]];
-    if (!is_last) continue;
-    layout.merged_begin.push_back(static_cast<std::uint32_t>(row + 1));
-    ++facet;
+  std::vector<double> sums(clusters.count, 0.0);
+  for (std::size_t m = 0, i = 0; m < clusters.count; ++m) {
+    double* area_vector = layout.area_vectors.data() + m * rank;
+    for (; i < rows.end[m]; ++i) {
+      const std::uint32_t old = rows.merged[i];
+      const auto plane = complex.plane(SimplexId{old});
+      __builtin_prefetch(complex.planes.data() +
+                         rank * rows.merged[std::min(i + kAhead, rows.merged.size() - 1)]);
+      for (std::size_t k = 0; k < rank; ++k) area_vector[k] += determinants[old] * plane[k];
+      layout.merged_surface += determinants[old] * gradient_length(gradient_factor, plane);
+      sums[m] += determinants[old];
+      layout.facet_of_merged.push_back(FacetId{static_cast<std::uint32_t>(layout.simplicial + m)});
+    }
+    layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial + i));
   }
-  // A merged facet's row is never behind its first simplex: planes and sums can be put in place.
+  const std::span<const std::uint32_t> alone = std::span(old_of_new).first(layout.simplicial);
+  take_rows({complex.planes.data(), complex.row_count * rank}, rank, alone);
+  take_rows(determinants, 1, alone);
+  // Merged facets are no more than their simplices: there is room.
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
-    double sum = 0.0;
-    for (std::size_t i = layout.merged_begin[m]; i < layout.merged_begin[m + 1]; ++i) sum += determinants[i];
-    determinants[row] = sum;
+    determinants[row] = sums[m];
     std::copy_n(clusters.planes.data() + std::size_t{rows.cluster_order[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
+  complex.planes.discard_from(layout.facets * rank);
+  permute_topology(complex, old_of_new);
   return layout;
 }
 

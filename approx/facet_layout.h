@@ -44,7 +44,8 @@ struct FacetLayout {
 FacetLayout simplicial_layout(const SimplicialComplex& complex);
 
 /// Puts the rows of a compacted complex, and the determinants with them, into the order of FacetLayout. Then
-/// row f of complex.planes becomes the plane of facet f, determinants[f] the sum over its simplices.
+/// row f of complex.planes becomes the plane of facet f, determinants[f] the sum over its simplices; rows
+/// behind the facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
 ///         above plane a in input units.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <queue>
 
@@ -17,6 +18,28 @@ bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
 void count_up(std::uint8_t& count) {
   if (count < 255) ++count;
 }
+
+/// The simplices of each facet, ascending.
+struct FacetMembers {
+  std::vector<std::uint32_t> begin, rows;
+
+  explicit FacetMembers(const Covering& covering) : begin(covering.planes.size() + 1, 0) {
+    for (const std::uint32_t facet : covering.facet_of)
+      if (facet != kNone) ++begin[facet + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
+    rows.resize(begin.back());
+    for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
+      if (covering.facet_of[row] != kNone) rows[at[covering.facet_of[row]]++] = row;
+  }
+
+  std::span<const std::uint32_t> of(std::size_t facet) const {
+    return {rows.data() + begin[facet], begin[facet + 1] - begin[facet]};
+  }
+};
+
+/// Facets that one thread looks at before it asks for more.
+constexpr std::size_t kFacetsAtATime = 16;
 
 }  // namespace
 
@@ -146,23 +169,14 @@ Covering SlabCover::assign(const std::vector<std::uint32_t>& chosen, double widt
 
 /// Fits the planes where that is asked for, and drops the facets that were left without a simplex.
 void SlabCover::measure_facets(Covering& covering, double width, const CoverEffort& effort) {
-  std::vector<std::uint32_t> count(covering.planes.size() + 1, 0), order(live_count_);
-  for (std::uint32_t row = 0; row < complex_.row_count; ++row)
-    if (covering.facet_of[row] != kNone) ++count[covering.facet_of[row] + 1];
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  std::vector<std::uint32_t> at(count.begin(), count.end() - 1);
-  for (std::uint32_t row = 0; row < complex_.row_count; ++row)
-    if (covering.facet_of[row] != kNone) order[at[covering.facet_of[row]]++] = row;
-  const auto members_of_facet = [&](std::size_t facet) {
-    return Members(order.data() + count[facet], count[facet + 1] - count[facet]);
-  };
-  for_each_block(covering.planes.size(), 16, [&](std::size_t begin, std::size_t end) {
+  const FacetMembers members_of(covering);
+  for_each_block(covering.planes.size(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
     for (std::size_t facet = begin; facet != end; ++facet)
-      settle(members_of_facet(facet), width, effort, covering.planes[facet]);
+      settle(members_of.of(facet), width, effort, covering.planes[facet]);
   });
   std::uint32_t used = 0;
   for (std::size_t facet = 0; facet < covering.planes.size(); ++facet) {
-    const Members members = members_of_facet(facet);
+    const Members members = members_of.of(facet);
     if (members.empty()) continue;
     for (const std::uint32_t row : members) covering.facet_of[row] = used;
     if (used != facet) covering.planes[used] = std::move(covering.planes[facet]);
@@ -208,57 +222,75 @@ double SlabCover::depth_below(FittedPlane& plane, Members simplices) {
   return plane.height - low;
 }
 
+/// All connected parts of the facets but the largest of each, in the order of their first simplex.
+std::vector<SlabCover::Stray> SlabCover::find_strays(const Covering& covering) const {
+  const FacetMembers members_of(covering);
+  const std::size_t count = covering.planes.size();
+  std::vector<std::uint8_t> is_met(complex_.row_count, 0);  // each by the thread that looks at its facet
+  std::vector<std::vector<Stray>> strays_of((count + kFacetsAtATime - 1) / kFacetsAtATime);
+  for_each_block(count, kFacetsAtATime, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> order, part_begin;
+    for (auto facet = static_cast<std::uint32_t>(first); facet != last; ++facet) {
+      order.clear();
+      part_begin.clear();
+      for (const std::uint32_t row : members_of.of(facet)) {
+        if (is_met[row] != 0) continue;
+        part_begin.push_back(static_cast<std::uint32_t>(order.size()));
+        is_met[row] = 1;
+        order.push_back(row);
+        for (std::size_t i = part_begin.back(); i < order.size(); ++i) {
+          for (const SimplexId neighbour : complex_.neighbours(SimplexId{order[i]})) {
+            if (covering.facet_of[neighbour.value] != facet || is_met[neighbour.value] != 0) continue;
+            is_met[neighbour.value] = 1;
+            order.push_back(neighbour.value);
+            __builtin_prefetch(complex_.neighbours(neighbour).data());
+          }
+        }
+      }
+      if (part_begin.size() < 2) continue;
+      part_begin.push_back(static_cast<std::uint32_t>(order.size()));
+      std::size_t largest = 0;
+      const auto size_of = [&](std::size_t part) { return part_begin[part + 1] - part_begin[part]; };
+      for (std::size_t part = 1; part + 1 < part_begin.size(); ++part)
+        if (size_of(part) > size_of(largest)) largest = part;
+      for (std::size_t part = 0; part + 1 < part_begin.size(); ++part) {
+        if (part == largest) continue;
+        strays_of[first / kFacetsAtATime].push_back(
+            {facet, {order.begin() + part_begin[part], order.begin() + part_begin[part + 1]}});
+      }
+    }
+  });
+  std::vector<Stray> strays;
+  for (std::vector<Stray>& some : strays_of)
+    strays.insert(strays.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+  std::sort(strays.begin(), strays.end(),
+            [](const Stray& a, const Stray& b) { return a.simplices[0] < b.simplices[0]; });
+  return strays;
+}
+
 // A facet is connected: of several parts the largest stays, the others go to a neighbour that can hold them
 // within the width. Those that none can hold stay where they are.
 void SlabCover::gather_strays(Covering& covering, double width) {
-  std::vector<std::uint32_t> part_of(complex_.row_count, kNone), order, begin;
-  order.reserve(live_count_);
-  for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
-    if (covering.facet_of[row] == kNone || part_of[row] != kNone) continue;
-    const auto part = static_cast<std::uint32_t>(begin.size());
-    begin.push_back(static_cast<std::uint32_t>(order.size()));
-    part_of[row] = part;
-    order.push_back(row);
-    for (std::size_t i = begin.back(); i < order.size(); ++i) {
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{order[i]})) {
-        if (covering.facet_of[neighbour.value] != covering.facet_of[row] || part_of[neighbour.value] != kNone)
-          continue;
-        part_of[neighbour.value] = part;
-        order.push_back(neighbour.value);
-        __builtin_prefetch(complex_.neighbours(neighbour).data());
-      }
-    }
-  }
-  if (begin.size() <= covering.planes.size()) return;
-  begin.push_back(static_cast<std::uint32_t>(order.size()));
-  const auto members = [&](std::uint32_t part) {
-    return Members(order.data() + begin[part], begin[part + 1] - begin[part]);
-  };
-  std::vector<std::uint32_t> largest(covering.planes.size(), kNone), hosts;
-  for (std::uint32_t part = 0; part + 1 < begin.size(); ++part) {
-    std::uint32_t& best = largest[covering.facet_of[members(part)[0]]];
-    if (best == kNone || members(part).size() > members(best).size()) best = part;
-  }
-  for (std::uint32_t part = 0; part + 1 < begin.size(); ++part) {
-    const std::uint32_t own = covering.facet_of[members(part)[0]];
-    if (largest[own] == part) continue;
+  std::vector<std::uint32_t> hosts;
+  for (const Stray& stray : find_strays(covering)) {
     hosts.clear();
-    for (const std::uint32_t simplex : members(part)) {
+    for (const std::uint32_t simplex : stray.simplices) {
       for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex}))
-        if (covering.facet_of[neighbour.value] != own) hosts.push_back(covering.facet_of[neighbour.value]);
+        if (covering.facet_of[neighbour.value] != stray.facet)
+          hosts.push_back(covering.facet_of[neighbour.value]);
     }
     std::sort(hosts.begin(), hosts.end());
     hosts.erase(std::unique(hosts.begin(), hosts.end()), hosts.end());
     double best_depth = kDepthRoom * width;
     std::uint32_t best = kNone;
     for (const std::uint32_t host : hosts) {
-      const double depth = depth_below(covering.planes[host], members(part));
+      const double depth = depth_below(covering.planes[host], stray.simplices);
       if (depth >= best_depth) continue;
       best_depth = depth;
       best = host;
     }
     if (best == kNone) continue;
-    for (const std::uint32_t simplex : members(part)) {
+    for (const std::uint32_t simplex : stray.simplices) {
       covering.facet_of[simplex] = best;
       depth_of_[simplex] = rounded_up_depth(best_depth);
     }

@@ -1,18 +1,25 @@
 #include "core/simplicial_complex.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
+
+#include "core/blocks.h"
 
 namespace ndhull {
 
 namespace {
 
-void rename_neighbours(SimplicialComplex& complex, const std::vector<std::uint32_t>& new_of_old) {
+constexpr std::size_t kRowsAtATime = 1 << 14;
+
+void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t> new_of_old) {
   const std::size_t rank = complex.rank;
-  for (std::size_t row = 0; row < complex.row_count; ++row) {
-    std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
-    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
-  }
+  for_each_block(complex.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
+      for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
+    }
+  });
 }
 
 }  // namespace
@@ -41,33 +48,35 @@ void compact(SimplicialComplex& complex) {
   complex.outside_head.discard_from(live);
 }
 
-void permute_rows(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
+void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
   constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
-  const std::size_t rank = complex.rank, count = old_of_new.size();
-  std::vector<std::uint32_t> moved, new_of_old(count);
+  const std::size_t width = 2 * complex.rank, count = old_of_new.size();
+  std::vector<std::uint32_t> rows, new_of_old(count);
   for (std::uint32_t row = 0; row < count; ++row) {
     new_of_old[old_of_new[row]] = row;
-    if (old_of_new[row] != row) moved.push_back(row);
+    if (old_of_new[row] != row) rows.push_back(row);
   }
-  if (moved.empty()) return;
-  HugeArray<double> planes(moved.size() * rank);
-  HugeArray<std::uint32_t> topology(moved.size() * 2 * rank);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const std::size_t next = old_of_new[moved[std::min(i + kAhead, moved.size() - 1)]];
-    __builtin_prefetch(complex.planes.data() + next * rank);
-    __builtin_prefetch(complex.topology.data() + next * 2 * rank);
-    const std::size_t old = old_of_new[moved[i]];
-    std::copy_n(complex.planes.data() + old * rank, rank, planes.data() + i * rank);
-    std::copy_n(complex.topology.data() + old * 2 * rank, 2 * rank, topology.data() + i * 2 * rank);
+  if (rows.empty()) return;
+  // Where most rows move it is faster to take all of them into a new table.
+  const bool takes_all = 2 * rows.size() > count;
+  if (takes_all) {
+    rows.resize(count);
+    std::iota(rows.begin(), rows.end(), 0u);
   }
-  if (moved.size() == count) {
-    complex.planes = std::move(planes);
-    complex.topology = std::move(topology);
-  } else {
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      std::copy_n(planes.data() + i * rank, rank, complex.planes.data() + moved[i] * rank);
-      std::copy_n(topology.data() + i * 2 * rank, 2 * rank, complex.topology.data() + moved[i] * 2 * rank);
+  HugeArray<std::uint32_t> taken(rows.size() * width);
+  for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      __builtin_prefetch(complex.topology.data() + old_of_new[rows[std::min(i + kAhead, end - 1)]] * width);
+      std::copy_n(complex.topology.data() + old_of_new[rows[i]] * width, width, taken.data() + i * width);
     }
+  });
+  if (takes_all) {
+    complex.topology = std::move(taken);
+  } else {
+    for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        std::copy_n(taken.data() + i * width, width, complex.topology.data() + rows[i] * width);
+    });
   }
   rename_neighbours(complex, new_of_old);
 }

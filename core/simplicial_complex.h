@@ -61,8 +61,9 @@ struct SimplicialComplex {
 /// Cost O(rows), 4 bytes a row of scratch.
 void compact(SimplicialComplex& complex);
 
-/// Puts row old_of_new[r] into row r, for all live rows of a compacted complex, and renames the neighbours.
-/// Rows that stay cost one comparison; the others are copied once.
-void permute_rows(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new);
+/// Puts the vertices and neighbours of row old_of_new[r] into row r, for all live rows of a compacted
+/// complex, and renames the neighbours. Planes stay where they are. Rows that stay cost one comparison; the
+/// others are copied once.
+void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new);
 
 }  // namespace ndhull

@@ -1,0 +1,67 @@
+// How far an approximate hull grows: the part of approx/approximation.h that comes before its facets.
+#include "approx/approximation.h"
+#include "approx/outside_points.h"
+
+namespace ndhull {
+namespace {
+
+/// Once the hull has many simplices, this part will do; once it has very many, nearly all of the width: that
+/// takes a quarter of the simplices less, and makes a quarter of the facets more.
+constexpr double kGrowthShareAtMost = 0.75, kGrowthShareOfHuge = 0.85;
+/// Simplices that are worth growing for an approximate hull. Merging takes about as long as growing them.
+constexpr std::uint64_t kManySimplices = 250'000, kVeryManySimplices = 4'000'000;
+/// Rounds of points that go back before the best so far is taken: those that are where they were not located,
+/// and those that a search finds, few at a time.
+constexpr int kRounds = 24, kSearchRounds = 96;
+
+}  // namespace
+
+/// Where the points left out are, to a twentieth of what growth left out.
+void Approximation::locate_left_out(double outside_width) {
+  growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
+}
+
+void Approximation::grow_outside_width() {
+  const double width = lengths_.outside_width;
+  hull_.chosen.outside_width = width;
+  if (width > 0.0) growth_.grow_from_some();  // a search over all follows
+  bool has_finished = growth_.grow_to(width, 0, 0.0);
+  if (has_finished && width > 0.0) {
+    // Where most points are inside, proving that leaves few to search. Merging has to know where they are. To
+    // locate a point takes about as long as to search them all for one plane, which is done twice for each.
+    std::vector<PointId> points = growth_.unproven_points();
+    const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
+    const bool is_located = accuracy_.merges_neighbours() || 2 * points.size() < growth_.work().point_count ||
+                            points.size() < planes;
+    if (is_located) {
+      locate_left_out(width);
+      points.clear();
+      for (const LocatedPoint& point : growth_.left_out()) points.push_back(point.point);
+    }
+    OutsideSearch search(growth_, std::move(points));
+    bool has_grown = false;
+    for (int round = 0; round < kSearchRounds && has_finished && search.put_back_above(width); ++round) {
+      has_finished = growth_.grow_to(width, 0, 0.0);
+      has_grown = true;
+    }
+    if (has_finished && !is_located) growth_.certify_unproven(search.largest_gauge(), search.take_order());
+    if (has_finished && !(is_located && has_grown)) return;
+  }
+  locate_left_out(width);
+  for (int round = 0; round < kRounds && has_finished && growth_.repair(); ++round) {
+    has_finished = growth_.grow_to(width, 0, 0.0);
+    locate_left_out(width);
+  }
+}
+
+/// Growth for slabs of this width.
+void Approximation::grow_for_width(double outside_width, double slab) {
+  const std::uint64_t enough = lengths_.outside_width > 0.0 ? 0 : kManySimplices;
+  const bool has_ended = growth_.grow_to(outside_width, enough, kGrowthShareOfHuge * slab);
+  const GrowthWork& work = growth_.work();
+  if (has_ended || growth_.is_limited() || work.complex.row_count - work.free_count > kVeryManySimplices)
+    return;
+  growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
+}
+
+}  // namespace ndhull
