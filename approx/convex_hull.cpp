@@ -89,7 +89,9 @@ class HullBuilder {
       approximate(factor);
     }
     const Clock::time_point merge_start = Clock::now();
-    compact(complex());
+    for (const RowMove& move : compact(complex()))
+      if (!clusters_.cluster_of.empty()) clusters_.cluster_of[move.to] = clusters_.cluster_of[move.from];
+    if (!clusters_.cluster_of.empty()) clusters_.cluster_of.resize(complex().row_count);
     merge();
     make_facets();
     seconds(Phase::kMerge) += seconds_since(merge_start);
@@ -119,12 +121,6 @@ class HullBuilder {
     const Clock::time_point begin = Clock::now();
     const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
     clusters_ = Approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_).run();
-    std::size_t used = 0;
-    for (std::size_t row = 0; row < clusters_.cluster_of.size(); ++row) {
-      if (complex().state[row] == SimplexState::kLive)
-        clusters_.cluster_of[used++] = clusters_.cluster_of[row];
-    }
-    clusters_.cluster_of.resize(used);
     seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/blocks.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -51,10 +52,14 @@ class Merger {
 
   /// Those with a vertex of these.
   std::vector<std::uint8_t> simplices_at(std::span<const std::uint8_t> is_vertex) const {
+    constexpr std::size_t kSimplicesInBlock = 16384;
     std::vector<std::uint8_t> is_one(complex_.row_count, 0);
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
-      for (const PointId id : complex_.vertices(SimplexId{simplex})) is_one[simplex] |= is_vertex[id.value];
-    }
+    for_each_block(complex_.row_count, kSimplicesInBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        const SimplexId simplex{static_cast<std::uint32_t>(row)};
+        for (const PointId id : complex_.vertices(simplex)) is_one[row] |= is_vertex[id.value];
+      }
+    });
     return is_one;
   }
 

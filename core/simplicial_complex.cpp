@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/blocks.h"
@@ -12,40 +13,61 @@ namespace {
 
 constexpr std::size_t kRowsAtATime = 1 << 14;
 
-void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t> new_of_old) {
+/// `moved`: rows, as they are numbered now, of which no neighbour was told yet where they are.
+void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t> new_of_old,
+                       std::span<const std::uint32_t> moved) {
+  constexpr std::size_t kFew = 8;  // one of so many
   const std::size_t rank = complex.rank;
-  for_each_block(complex.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
-      for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
-    }
-  });
+  const auto rename = [&](std::size_t row) {
+    std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
+    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
+  };
+  if (moved.size() * kFew > complex.row_count) {
+    for_each_block(complex.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) rename(row);
+    });
+    return;
+  }
+  std::vector<bool> is_renamed(complex.row_count, false);
+  const auto rename_once = [&](std::uint32_t row) {
+    if (is_renamed[row]) return;
+    is_renamed[row] = true;
+    rename(row);
+  };
+  for (const std::uint32_t row : moved) {
+    rename_once(row);
+    for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) rename_once(neighbour.value);
+  }
 }
 
 }  // namespace
 
-void compact(SimplicialComplex& complex) {
+std::vector<RowMove> compact(SimplicialComplex& complex) {
   const std::size_t rank = complex.rank;
-  std::vector<std::uint32_t> new_of_old(complex.row_count, SimplexId::kNone);
-  std::size_t live = 0;
-  for (std::size_t row = 0; row < complex.row_count; ++row) {
-    if (complex.state[row] == SimplexState::kFree) continue;
-    new_of_old[row] = static_cast<std::uint32_t>(live);
-    if (live != row) {
-      std::copy_n(complex.planes.data() + row * rank, rank, complex.planes.data() + live * rank);
-      std::copy_n(complex.topology.data() + row * 2 * rank, 2 * rank,
-                  complex.topology.data() + live * 2 * rank);
-      complex.outside_head[live] = complex.outside_head[row];
-      complex.state[live] = complex.state[row];
-    }
-    ++live;
+  std::vector<std::uint32_t> new_of_old(complex.row_count), moved;
+  std::vector<RowMove> moves;
+  std::iota(new_of_old.begin(), new_of_old.end(), 0u);
+  std::size_t live = 0, end = complex.row_count;  // rows before `live` are live, rows from `end` on are free
+  for (; live < end; ++live) {
+    if (complex.state[live] != SimplexState::kFree) continue;
+    while (end > live && complex.state[end - 1] == SimplexState::kFree) --end;
+    if (end <= live) break;
+    const std::size_t last = --end;
+    new_of_old[last] = static_cast<std::uint32_t>(live);
+    moved.push_back(static_cast<std::uint32_t>(live));
+    moves.push_back({static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(live)});
+    std::copy_n(complex.planes.data() + last * rank, rank, complex.planes.data() + live * rank);
+    std::copy_n(complex.topology.data() + last * 2 * rank, 2 * rank,
+                complex.topology.data() + live * 2 * rank);
+    complex.outside_head[live] = complex.outside_head[last];
+    std::swap(complex.state[live], complex.state[last]);
   }
-  for (std::size_t row = live; row < complex.row_count; ++row) complex.state[row] = SimplexState::kFree;
   complex.row_count = live;
-  rename_neighbours(complex, new_of_old);
+  rename_neighbours(complex, new_of_old, moved);
   complex.planes.discard_from(live * rank);
   complex.topology.discard_from(live * 2 * rank);
   complex.outside_head.discard_from(live);
+  return moves;
 }
 
 void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
@@ -78,7 +100,7 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
         std::copy_n(taken.data() + i * width, width, complex.topology.data() + rows[i] * width);
     });
   }
-  rename_neighbours(complex, new_of_old);
+  rename_neighbours(complex, new_of_old, moved);
 }
 
 }  // namespace ndhull

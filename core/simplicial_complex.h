@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/huge_array.h"
 #include "core/ids.h"
@@ -57,9 +58,14 @@ struct SimplicialComplex {
   }
 };
 
-/// Renumbers the live rows to 0 .. n-1 in their present order and gives the rest of the memory back.
-/// Cost O(rows), 4 bytes a row of scratch.
-void compact(SimplicialComplex& complex);
+/// Row `from` is now row `to`.
+struct RowMove {
+  std::uint32_t from, to;
+};
+
+/// Renumbers the live rows to 0 .. n-1, the last ones to the places of free ones, and gives the rest of the
+/// memory back. Returns the rows that moved. Cost O(rows), 4 bytes a row of scratch.
+std::vector<RowMove> compact(SimplicialComplex& complex);
 
 /// Puts the vertices and neighbours of row old_of_new[r] into row r, for all live rows of a compacted
 /// complex, and renames the neighbours. Planes stay where they are. Rows that stay cost one comparison; the
