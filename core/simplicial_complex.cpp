@@ -100,7 +100,7 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
         std::copy_n(taken.data() + i * width, width, complex.topology.data() + rows[i] * width);
     });
   }
-  rename_neighbours(complex, new_of_old, moved);
+  rename_neighbours(complex, new_of_old, rows);
 }
 
 }  // namespace ndhull
