@@ -188,6 +188,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
 }
 
 void CertifiedGrowth::locate_left_out(double useful_slack) {
+  forget_waiting();  // what is left out goes back by `repair`
   const Clock::time_point begin = Clock::now();
   std::uint64_t searched_all = 0;
   tell(Phase::kCertify, work_.points_outside, furthest_height());
@@ -240,8 +241,7 @@ bool CertifiedGrowth::is_late() {
 }
 
 void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
-  work_.waiting.clear();  // the caller has looked at all
-  work_.waiting_height = 0.0;
+  forget_waiting();  // the caller has looked at all
   for (const LocatedPoint& point : points) {
     push_outside(work_, point.point.value, point.simplex.value,
                  height_above(work_, point.simplex.value, point.gauge));
@@ -326,9 +326,14 @@ void CertifiedGrowth::place_waiting() {
       }
     }
   }
+  forget_waiting();
+  seconds(Phase::kCertify) += seconds_since(begin);
+}
+
+/// A point that goes into an outside set by another way must not be placed as well.
+void CertifiedGrowth::forget_waiting() {
   work_.waiting = std::vector<std::uint32_t>();
   work_.waiting_height = 0.0;
-  seconds(Phase::kCertify) += seconds_since(begin);
 }
 
 /// Into an outside set, when it is more than the shift and W above its simplex.

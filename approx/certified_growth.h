@@ -90,6 +90,7 @@ class CertifiedGrowth {
   void grow_before_placing();
   bool holds_some_waiting();
   void place_waiting();
+  void forget_waiting();
   bool push_if_outside(const LocatedPoint& point);
   std::vector<PointId> points_off_the_complex();
   bool repair(const std::vector<LocatedPoint>& located);

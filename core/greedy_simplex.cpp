@@ -38,7 +38,7 @@ std::size_t find_largest(std::span<const double> values) {
   while (place < whole &&
          hn::AllFalse(tag, hn::Eq(hn::LoadU(tag, values.data() + place), hn::Set(tag, largest))))
     place += lanes;
-  while (values[place] != largest) ++place;
+  while (place + 1 < values.size() && values[place] != largest) ++place;  // NaN equals nothing
   return place;
 }
 

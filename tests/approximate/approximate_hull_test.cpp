@@ -108,6 +108,22 @@ TEST(ApproximateHullLaw, NumberOfFacetsIsMetWhereVerticesAreMany) {
   }
 }
 
+// So many points that growth begins with some of them; their facets as they are, and merged.
+TEST(ApproximateHullLaw, OutsideWidthHoldsWhereGrowthBeginsWithSomePoints) {
+  const PointSet set = family_points(PointFamily::kSphere, 40000, 5, 4);
+  for (const auto& [width, radius] : {std::pair{0.3, 0.0}, {0.2, 0.01}}) {
+    SCOPED_TRACE(width);
+    HullOptions options;
+    options.accuracy.outside_width = {width, false};
+    options.accuracy.centrum_radius = {radius, false};
+    const Hull hull = hull_of(set, options);
+    expect_approximate_laws(hull, set.view());
+    if (radius == 0.0) {
+      EXPECT_LE(hull.max_facet_width, 1.01 * width);
+    }
+  }
+}
+
 /// Cubes of gaussian numbers: like measurements, most near the middle and a few far out along the axes.
 PointSet heavy_tailed_points(std::size_t count, std::size_t dimension) {
   PointSet set = family_points(PointFamily::kGaussian, count, dimension, 11);
