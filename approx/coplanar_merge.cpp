@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "approx/flat_facets.h"
 #include "core/blocks.h"
 #include "core/plane_kernels.h"
 
@@ -22,8 +23,17 @@ class Merger {
 
   FacetClusters run(std::span<const std::uint8_t> is_shifted) {
     has_flat_ridge_.assign(complex_.row_count, 0);
-    mark_flat(complex_, points_, tolerance_, simplices_at(is_shifted), has_flat_ridge_);
-    grow_facets();
+    cluster_of_.assign(complex_.row_count, kNone);
+    std::vector<std::uint8_t> looks_at = simplices_at(is_shifted);
+    if (2 * std::count(looks_at.begin(), looks_at.end(), 1) > std::ssize(looks_at)) {
+      take_flat_facets();
+      // Of the others all are looked at: a ridge to a simplex that was at a shifted vertex may be flat.
+      for (std::size_t row = 0; row < looks_at.size(); ++row) looks_at[row] = cluster_of_[row] == kNone;
+    }
+    if (std::find(looks_at.begin(), looks_at.end(), 1) != looks_at.end()) {
+      mark_flat(complex_, points_, tolerance_, looks_at, has_flat_ridge_);
+      grow_facets();
+    }
     if (!clusters_.empty()) absorb_slivers();
     return facets();
   }
@@ -63,12 +73,21 @@ class Merger {
     return is_one;
   }
 
+  void take_flat_facets() {
+    for (FlatFacet& flat : find_flat_facets(complex_, points_, determinants_, tolerance_, cluster_of_)) {
+      const auto id = static_cast<std::uint32_t>(clusters_.size());
+      clusters_.push_back({id, std::move(flat.simplices), plane(flat.seed), std::move(flat.points)});
+      if (clusters_.back().simplices.size() > 1) fit_plane(clusters_.back());
+    }
+    for (std::size_t row = 0; row < complex_.row_count; ++row)
+      has_flat_ridge_[row] = cluster_of_[row] != kNone;
+  }
+
   void grow_facets() {
-    cluster_of_.assign(complex_.row_count, kNone);
     std::vector<std::pair<double, std::uint32_t>> seeds;
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       // |det| / height is the area up to a constant factor.
-      if (has_flat_ridge_[simplex])
+      if (has_flat_ridge_[simplex] && cluster_of_[simplex] == kNone)
         seeds.emplace_back(-std::abs(determinants_[simplex]) * plane(simplex).norm(), simplex);
     }
     std::sort(seeds.begin(), seeds.end());
@@ -192,48 +211,34 @@ class Merger {
   /// nearest to.
   bool adopt_pinned() {
     const std::size_t enough = complex_.rank;
-    std::vector<bool> in_cluster;
+    std::vector<std::uint32_t> facets_at;  // of each point of a facet of several; 0: of no such facet
     for (const Cluster& cluster : clusters_) {
       if (cluster.simplices.size() < 2) continue;
-      if (cluster.points.back().value >= in_cluster.size())
-        in_cluster.resize(cluster.points.back().value + 1u);
-      for (const PointId id : cluster.points) in_cluster[id.value] = true;
+      if (cluster.points.back().value >= facets_at.size()) facets_at.resize(cluster.points.back().value + 1u);
+      for (const PointId id : cluster.points) ++facets_at[id.value];
     }
-    auto lacking = std::count(in_cluster.begin(), in_cluster.end(), true);  // points with too few facets yet
-    std::vector<std::vector<std::uint32_t>> facets_at(in_cluster.size());
-    const auto in_doubt = [&](PointId id) { return id.value < in_cluster.size() && in_cluster[id.value]; };
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count && lacking > 0; ++simplex) {
-      for (const PointId id : complex_.vertices(SimplexId{simplex})) {
-        if (!in_doubt(id)) continue;
-        std::vector<std::uint32_t>& facets = facets_at[id.value];
-        const std::uint32_t facet = facet_name(simplex);
-        if (facets.size() >= enough || std::find(facets.begin(), facets.end(), facet) != facets.end())
-          continue;
-        facets.push_back(facet);
-        if (facets.size() == enough) --lacking;
-      }
+    const auto in_doubt = [&](PointId id) {
+      return id.value < facets_at.size() && facets_at[id.value] != 0 && facets_at[id.value] < enough;
+    };
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+      if (is_merged(simplex)) continue;
+      for (const PointId id : complex_.vertices(SimplexId{simplex}))
+        if (in_doubt(id)) ++facets_at[id.value];
     }
-    if (lacking == 0) return false;
+    if (std::none_of(facets_at.begin(), facets_at.end(),
+                     [&](std::uint32_t count) { return count != 0 && count < enough; }))
+      return false;
     bool any = false;
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       if (is_merged(simplex)) continue;
       const auto vertices = complex_.vertices(SimplexId{simplex});
-      const bool pinned = std::any_of(vertices.begin(), vertices.end(), [&](PointId id) {
-        return in_doubt(id) && facets_at[id.value].size() < enough;
-      });
-      if (pinned) any = adopt_nearest(simplex) || any;
+      if (std::any_of(vertices.begin(), vertices.end(), in_doubt)) any = adopt_nearest(simplex) || any;
     }
     return any;
   }
 
   bool is_merged(std::uint32_t simplex) const {
     return cluster_of_[simplex] != kNone && clusters_[root(cluster_of_[simplex])].simplices.size() > 1;
-  }
-
-  /// A number for the facet of a simplex, different for different facets.
-  std::uint32_t facet_name(std::uint32_t simplex) const {
-    const auto count = static_cast<std::uint32_t>(complex_.row_count);
-    return cluster_of_[simplex] == kNone ? simplex : count + root(cluster_of_[simplex]);
   }
 
   bool adopt_nearest(std::uint32_t simplex) {
@@ -265,18 +270,32 @@ class Merger {
     join(cluster_of_[simplex], host);
   }
 
+  /// Is there a facet that `id` adds nothing to? Not asked of many facets, where looking at its neighbours
+  /// costs less.
+  bool may_have_host(std::uint32_t id) const {
+    if (clusters_.size() > clusters_[id].simplices.size() * complex_.rank) return true;
+    for (std::uint32_t other = 0; other < clusters_.size(); ++other) {
+      if (other != id && clusters_[other].joined == other &&
+          added_width(clusters_[id], clusters_[other]) < HUGE_VAL)
+        return true;
+    }
+    return false;
+  }
+
   /// The neighbour that `id` adds nothing to, the one in whose plane it lies best; kNone when there is none.
-  std::uint32_t best_host(std::uint32_t id) const {
+  std::uint32_t best_host(std::uint32_t id) {
+    if (!may_have_host(id)) return kNone;
     double best_width = HUGE_VAL;
     std::uint32_t best = kNone;
-    std::vector<std::uint32_t> tried{id};
+    tried_by_.resize(clusters_.size(), 0);
+    tried_by_[id] = ++stamp_;
     for (const std::uint32_t simplex : clusters_[id].simplices) {
       for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
         const std::uint32_t other_cluster = cluster_of_[neighbour.value];
         if (other_cluster == kNone || other_cluster == id) continue;
         const std::uint32_t other = root(other_cluster);
-        if (std::find(tried.begin(), tried.end(), other) != tried.end()) continue;
-        tried.push_back(other);
+        if (tried_by_[other] == stamp_) continue;
+        tried_by_[other] = stamp_;
         const double width = added_width(clusters_[id], clusters_[other]);
         if (width >= best_width) continue;
         best_width = width;
@@ -332,6 +351,7 @@ class Merger {
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
   std::vector<PointLook> looks_;
+  std::vector<std::uint32_t> tried_by_;  // per cluster, the stamp of the one that looked at it last
   std::uint32_t stamp_ = 0;
 };
 

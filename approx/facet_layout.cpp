@@ -96,13 +96,16 @@ std::vector<std::uint32_t> row_order(const MergedRows& rows, std::size_t regular
   return old_of_new;
 }
 
-double gradient_length(std::span<const double> factor, std::span<const double> plane) {
-  double length_sq = 0.0;
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    double entry = 0.0;
-    for (std::size_t k = 0; k < plane.size(); ++k) entry += factor[i * plane.size() + k] * plane[k];
-    length_sq += entry * entry;
+/// |R a|, R given by its columns: the sums of all rows side by side.
+double gradient_length(std::span<const double> columns, std::span<const double> plane,
+                       std::span<double> sums) {
+  std::fill(sums.begin(), sums.end(), 0.0);
+  for (std::size_t k = 0; k < plane.size(); ++k) {
+    const double* column = columns.data() + k * plane.size();
+    for (std::size_t i = 0; i < plane.size(); ++i) sums[i] += column[i] * plane[k];
   }
+  double length_sq = 0.0;
+  for (const double entry : sums) length_sq += entry * entry;
   return std::sqrt(length_sq);
 }
 
@@ -130,7 +133,9 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.area_vectors.assign(clusters.count * rank, 0.0);
   layout.facet_of_merged.reserve(rows.merged.size());
   layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial));
-  std::vector<double> sums(clusters.count, 0.0);
+  std::vector<double> sums(clusters.count, 0.0), columns(rank * rank), gradient(rank);
+  for (std::size_t k = 0; k < rank; ++k)
+    for (std::size_t i = 0; i < rank; ++i) columns[k * rank + i] = gradient_factor[i * rank + k];
   for (std::size_t m = 0, i = 0; m < clusters.count; ++m) {
     double* area_vector = layout.area_vectors.data() + m * rank;
     for (; i < rows.end[m]; ++i) {
@@ -139,7 +144,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
       __builtin_prefetch(complex.planes.data() +
                          rank * rows.merged[std::min(i + kAhead, rows.merged.size() - 1)]);
       for (std::size_t k = 0; k < rank; ++k) area_vector[k] += determinants[old] * plane[k];
-      layout.merged_surface += determinants[old] * gradient_length(gradient_factor, plane);
+      layout.merged_surface += determinants[old] * gradient_length(columns, plane, gradient);
       sums[m] += determinants[old];
       layout.facet_of_merged.push_back(FacetId{static_cast<std::uint32_t>(layout.simplicial + m)});
     }

@@ -12,12 +12,15 @@ using ConstRow = Eigen::Map<const Vector>;
 
 /// A merged facet hardly larger than the tolerance can be left with fewer than rank vertices. It keeps as
 /// many of its points as it needs, those in most facets first (`facets_at`: how many, for points in merged
-/// facets only). One vertex too many is harmless, one too few is not.
+/// facets only; `found`: per merged facet, how many of its points became vertices here). One vertex too many
+/// is harmless, one too few is not.
 void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
-                          const std::vector<std::uint32_t>& facets_at, std::vector<bool>& is_vertex) {
+                          const std::vector<std::uint32_t>& facets_at,
+                          const std::vector<std::uint32_t>& found, std::vector<bool>& is_vertex) {
   std::vector<PointId> points;
   std::vector<std::uint32_t> last_facet(is_vertex.size(), FacetId::kNone);
   for (std::uint32_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
+    if (found[merged] >= complex.rank) continue;
     points.clear();
     for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
       for (const PointId id : complex.vertices(SimplexId{row})) {
@@ -82,16 +85,18 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
     }
   }
   std::sort(incidences.begin(), incidences.end());
-  std::vector<std::uint32_t> around, facets_at(point_count, 0);
+  std::vector<std::uint32_t> around, facets_at(point_count, 0), found(layout.facets - layout.simplicial, 0);
   for (std::size_t begin = 0, end = 0; begin < incidences.size(); begin = end) {
     around.clear();
     for (end = begin; end < incidences.size() && incidences[end].first == incidences[begin].first; ++end) {
       around.push_back(incidences[end].second);
     }
     facets_at[incidences[begin].first] = static_cast<std::uint32_t>(around.size());
-    is_vertex[incidences[begin].first] = normals_span(complex, around);
+    if (!normals_span(complex, around)) continue;
+    is_vertex[incidences[begin].first] = true;
+    for (const std::uint32_t facet : around) ++found[facet - layout.simplicial];
   }
-  keep_enough_vertices(complex, layout, facets_at, is_vertex);
+  keep_enough_vertices(complex, layout, facets_at, found, is_vertex);
   return is_vertex;
 }
 

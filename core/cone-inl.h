@@ -169,56 +169,89 @@ void Grower<D>::commit() {
 // at: each pair's subridge must differ from that of all other pairs.
 template <std::size_t D>
 bool Grower<D>::cone_is_sphere() {
-  // Open addressing. Each pair of neighbours has one key: at most two thirds of the entries are used.
+  return subridges_differ() && cone_is_connected();
+}
+
+/// Lists the keys of the subridges between the new simplex of ridge `index` and neighbours with larger rows:
+/// each pair is listed once. Returns how many there are now; writes up to 8 more.
+template <std::size_t D>
+HWY_INLINE std::size_t Grower<D>::list_subridges(std::size_t index, std::uint64_t* keys, std::size_t count) {
+  const hn::CappedTag<std::uint64_t, 8> tag;
+  const hn::Rebind<std::uint32_t, decltype(tag)> ids_tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  const std::uint32_t row = new_rows_[index], apex_slot = horizon_[index].slot;
+  const std::uint32_t* ids = vertices(row);
+  const std::uint32_t* around = neighbours(row);
+  alignas(64) std::uint64_t key_of[(D + 7) / 8 * 8];
+  for (std::size_t k = 0; k < D; k += lanes)
+    hn::Store(scramble(tag, hn::PromoteTo(tag, hn::LoadU(ids_tag, ids + k))), tag, key_of + k);
+  key_of[apex_slot] = 0;
+  std::uint64_t all = 1;
+  for (std::size_t k = 0; k < D; ++k) all ^= key_of[k];
+  for (std::size_t k = 0; k < D; ++k) {
+    keys[count] = all ^ key_of[k];
+    // Which side has the larger row cannot be predicted.
+    count += static_cast<std::size_t>(k != apex_slot) & static_cast<std::size_t>(around[k] > row);
+  }
+  return count;
+}
+
+template <std::size_t D>
+bool Grower<D>::subridges_differ() {
+  // Open addressing. Each pair of neighbours has one key: at most half of the entries are used.
   const std::size_t pairs = new_count_ * (D - 1) / 2;
   std::size_t mask = 63;
-  while (2 * mask < 3 * pairs) mask = 2 * mask + 1;
+  while (mask < 2 * pairs) mask = 2 * mask + 1;
   subridge_keys_.assign(mask + 1, 0);
+  subridges_late_.resize(2 * pairs + 8);
+  std::uint64_t* const table = subridge_keys_.data();
+  std::uint64_t* const late = subridges_late_.data();  // whose first entry another has
+  std::size_t late_count = 0;
+  bool differ = true;
   constexpr std::size_t kRows = 8;  // whose entries are on their way from memory together
-  std::uint64_t keys[kRows * D];
+  std::uint64_t keys[kRows * D + 8];
   for (std::size_t begin = 0; begin < new_count_; begin += kRows) {
     std::size_t count = 0;
-    for (std::size_t i = begin; i < std::min(begin + kRows, new_count_); ++i) {
-      const std::uint32_t row = new_rows_[i];
-      const std::uint32_t* ids = vertices(row);
-      const std::uint32_t* around = neighbours(row);
-      const std::uint32_t apex_slot = horizon_[i].slot;
-      std::uint64_t key_of[D], all = 1;
-      for (std::size_t k = 0; k < D; ++k) all ^= key_of[k] = k == apex_slot ? 0 : scramble(ids[k]);
-      for (std::size_t k = 0; k < D; ++k) {
-        keys[count] = all ^ key_of[k];
-        __builtin_prefetch(subridge_keys_.data() + (keys[count] & mask));
-        // Each pair once: which side has it cannot be predicted.
-        count += static_cast<std::size_t>(k != apex_slot) & static_cast<std::size_t>(around[k] > row);
-      }
-    }
+    for (std::size_t i = begin; i < std::min(begin + kRows, new_count_); ++i)
+      count = list_subridges(i, keys, count);
+    for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(table + (keys[i] & mask), 1);
     for (std::size_t i = 0; i < count; ++i) {
-      std::size_t at = keys[i] & mask;
-      while (subridge_keys_[at] != 0) {
-        if (subridge_keys_[at] == keys[i]) return false;
-        at = (at + 1) & mask;
-      }
-      subridge_keys_[at] = keys[i];
+      const std::uint64_t key = keys[i];
+      std::uint64_t& entry = table[key & mask];
+      const bool is_free = entry == 0;
+      differ &= entry != key;
+      entry = is_free ? key : entry;
+      late[late_count] = key;
+      late_count += is_free ? 0 : 1;
     }
   }
-  // Connected: walk from the first new simplex. kLive marks those reached.
-  std::vector<std::uint32_t> reached;
-  reached.reserve(new_count_);
-  reached.push_back(new_rows_[0]);
+  for (std::size_t i = 0; i < late_count && differ; ++i) {
+    std::size_t at = late[i] & mask;
+    for (; table[at] != 0; at = (at + 1) & mask) differ &= table[at] != late[i];
+    table[at] = late[i];
+  }
+  return differ;
+}
+
+// A walk from the first new simplex. kLive marks those reached; hidden neighbours have it before.
+template <std::size_t D>
+bool Grower<D>::cone_is_connected() {
+  cone_walk_.resize(new_count_ + D);
+  std::uint32_t* const reached = cone_walk_.data();
   for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kFree;
+  std::size_t count = 1;
+  reached[0] = new_rows_[0];
   state_[reached[0]] = SimplexState::kLive;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t* around = neighbours(reached[i]);
     for (std::size_t k = 0; k < D; ++k) {
-      if (state_[around[k]] == SimplexState::kFree) {
-        state_[around[k]] = SimplexState::kLive;
-        reached.push_back(around[k]);
-      }
+      reached[count] = around[k];
+      count += state_[around[k]] == SimplexState::kFree ? 1 : 0;
+      state_[around[k]] = SimplexState::kLive;
     }
   }
-  const bool connected = reached.size() == new_count_;
   for (std::size_t i = 0; i < new_count_; ++i) state_[new_rows_[i]] = SimplexState::kLive;
-  return connected;
+  return count == new_count_;
 }
 
 }  // namespace HWY_NAMESPACE

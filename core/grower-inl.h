@@ -56,6 +56,14 @@ HWY_INLINE std::uint64_t scramble(std::uint64_t x) {  // splitmix64 (Steele, Lea
   return x ^ (x >> 31);
 }
 
+template <class Tag, class Vec = hn::Vec<Tag>>
+HWY_INLINE Vec scramble(Tag tag, Vec x) {  // the same, of each lane
+  x = hn::Add(x, hn::Set(tag, 0x9E37'79B9'7F4A'7C15u));
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(tag, 0xBF58'476D'1CE4'E5B9u));
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<27>(x)), hn::Set(tag, 0x94D0'49BB'1331'11EBu));
+  return hn::Xor(x, hn::ShiftRight<31>(x));
+}
+
 constexpr std::uint32_t kNewBit = 0x8000'0000u;  // marks, in a visible simplex, the new one over its ridge
 constexpr std::uint32_t kNoRow = 0xFFFF'FFFFu;
 
@@ -193,6 +201,9 @@ class Grower {
   bool room_for_cone();
   std::size_t live_rows() const { return work_.complex.row_count - work_.free_count; }
   bool cone_is_sphere();
+  std::size_t list_subridges(std::size_t index, std::uint64_t* keys, std::size_t count);
+  bool subridges_differ();
+  bool cone_is_connected();
   std::uint32_t locate(const double* y, std::uint32_t row, double& gauge);
   void drop_first(std::uint32_t row);
 
@@ -223,6 +234,8 @@ class Grower {
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
   double highest_hidden_ = 0.0;               // largest gauge tested not above it
   std::vector<std::uint64_t> subridge_keys_;  // XOR of random keys of the vertices; 0: free
+  std::vector<std::uint64_t> subridges_late_;
+  std::vector<std::uint32_t> cone_walk_;
 };
 
 // Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
