@@ -1,14 +1,16 @@
 #include "approx/facet_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "core/dimension_switch.h"
 
 namespace ndhull {
 namespace {
 
 constexpr std::uint32_t kNone = FacetId::kNone;
-constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
 
 /// Puts row old_of_new[r] of a table of `width` columns into row r, for the rows that old_of_new has; what
 /// was there is lost.
@@ -97,16 +99,53 @@ std::vector<std::uint32_t> row_order(const MergedRows& rows, std::size_t regular
 }
 
 /// |R a|, R given by its columns: the sums of all rows side by side.
-double gradient_length(std::span<const double> columns, std::span<const double> plane,
-                       std::span<double> sums) {
-  std::fill(sums.begin(), sums.end(), 0.0);
-  for (std::size_t k = 0; k < plane.size(); ++k) {
-    const double* column = columns.data() + k * plane.size();
-    for (std::size_t i = 0; i < plane.size(); ++i) sums[i] += column[i] * plane[k];
-  }
+template <std::size_t D>
+double gradient_length(const std::array<double, D * D>& columns, const double* plane) {
+  std::array<double, D> sums{};
+  for (std::size_t k = 0; k < D; ++k)
+    for (std::size_t i = 0; i < D; ++i) sums[i] += columns[k * D + i] * plane[k];
   double length_sq = 0.0;
   for (const double entry : sums) length_sq += entry * entry;
   return std::sqrt(length_sq);
+}
+
+/// Sums over the simplices of each merged facet: determinants, those times the planes, and areas.
+struct MergedSums {
+  std::vector<double> determinants, area_vectors, surface;
+};
+
+/// As the rows stand in memory: within a facet that is the order of its simplices.
+template <std::size_t D>
+void sum_rows(const SimplicialComplex& complex, std::span<const double> determinants,
+              std::span<const std::uint32_t> merged_of_row, std::span<const double> factor,
+              MergedSums& sums) {
+  std::array<double, D * D> columns;
+  for (std::size_t k = 0; k < D; ++k)
+    for (std::size_t i = 0; i < D; ++i) columns[k * D + i] = factor[i * D + k];
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    const std::size_t m = merged_of_row[row];
+    if (m == kNone) continue;
+    const double* plane = complex.plane(SimplexId{row}).data();
+    double* area_vector = sums.area_vectors.data() + m * D;
+    for (std::size_t k = 0; k < D; ++k) area_vector[k] += determinants[row] * plane[k];
+    sums.surface[m] += determinants[row] * gradient_length<D>(columns, plane);
+    sums.determinants[m] += determinants[row];
+  }
+}
+
+MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> determinants,
+                      const FacetClusters& clusters, const MergedRows& rows, std::span<const double> factor) {
+  std::vector<std::uint32_t> place_of(clusters.count), merged_of_row(complex.row_count, kNone);
+  for (std::uint32_t m = 0; m < clusters.count; ++m) place_of[rows.cluster_order[m]] = m;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row)
+    if (clusters.cluster_of[row] != kNone) merged_of_row[row] = place_of[clusters.cluster_of[row]];
+  MergedSums sums;
+  sums.determinants.resize(clusters.count);
+  sums.surface.resize(clusters.count);
+  sums.area_vectors.resize(clusters.count * complex.rank);
+  call_with_dimension<1, kMaxRank>(
+      complex.rank, [&](auto d) { sum_rows<d>(complex, determinants, merged_of_row, factor, sums); });
+  return sums;
 }
 
 }  // namespace
@@ -129,39 +168,28 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.facets = layout.simplicial + clusters.count;
   const std::vector<std::uint32_t> old_of_new = row_order(rows, layout.regular);
 
-  // Planes and determinants of merged simplices are needed for sums only.
-  layout.area_vectors.assign(clusters.count * rank, 0.0);
   layout.facet_of_merged.reserve(rows.merged.size());
   layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial));
-  std::vector<double> sums(clusters.count, 0.0), columns(rank * rank), gradient(rank);
-  for (std::size_t k = 0; k < rank; ++k)
-    for (std::size_t i = 0; i < rank; ++i) columns[k * rank + i] = gradient_factor[i * rank + k];
   for (std::size_t m = 0, i = 0; m < clusters.count; ++m) {
-    double* area_vector = layout.area_vectors.data() + m * rank;
-    for (; i < rows.end[m]; ++i) {
-      const std::uint32_t old = rows.merged[i];
-      const auto plane = complex.plane(SimplexId{old});
-      __builtin_prefetch(complex.planes.data() +
-                         rank * rows.merged[std::min(i + kAhead, rows.merged.size() - 1)]);
-      for (std::size_t k = 0; k < rank; ++k) area_vector[k] += determinants[old] * plane[k];
-      layout.merged_surface += determinants[old] * gradient_length(columns, plane, gradient);
-      sums[m] += determinants[old];
-      layout.facet_of_merged.push_back(FacetId{static_cast<std::uint32_t>(layout.simplicial + m)});
-    }
+    layout.facet_of_merged.insert(layout.facet_of_merged.end(), rows.end[m] - i,
+                                  FacetId{static_cast<std::uint32_t>(layout.simplicial + m)});
+    i = rows.end[m];
     layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial + i));
   }
+  MergedSums sums = sum_merged(complex, determinants, clusters, rows, gradient_factor);
+  layout.area_vectors = std::move(sums.area_vectors);
+  layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
   const std::span<const std::uint32_t> alone = std::span(old_of_new).first(layout.simplicial);
   take_rows({complex.planes.data(), complex.row_count * rank}, rank, alone);
   take_rows(determinants, 1, alone);
   // Merged facets are no more than their simplices: there is room.
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
-    determinants[row] = sums[m];
+    determinants[row] = sums.determinants[m];
     std::copy_n(clusters.planes.data() + std::size_t{rows.cluster_order[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
-  complex.planes.discard_from(layout.facets * rank);
-  permute_topology(complex, old_of_new);
+  permute_topology(complex, old_of_new, layout.facets);
   return layout;
 }
 

@@ -70,37 +70,52 @@ std::vector<RowMove> compact(SimplicialComplex& complex) {
   return moves;
 }
 
-void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new) {
+void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new,
+                      std::size_t planes_kept) {
   constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
-  const std::size_t width = 2 * complex.rank, count = old_of_new.size();
+  const std::size_t rank = complex.rank, width = 2 * rank, count = old_of_new.size();
   std::vector<std::uint32_t> rows, new_of_old(count);
   for (std::uint32_t row = 0; row < count; ++row) {
     new_of_old[old_of_new[row]] = row;
     if (old_of_new[row] != row) rows.push_back(row);
   }
-  if (rows.empty()) return;
-  // Where most rows move it is faster to take all of them into a new table.
+  if (rows.empty()) return complex.planes.discard_from(planes_kept * rank);
+  // Where most rows move it is faster to take all of them, and to rename on the way.
   const bool takes_all = 2 * rows.size() > count;
   if (takes_all) {
     rows.resize(count);
     std::iota(rows.begin(), rows.end(), 0u);
   }
-  HugeArray<std::uint32_t> taken(rows.size() * width);
+  // A plane has as many bytes as the vertices and neighbours of its row: memory that is there already.
+  static_assert(sizeof(double) == 2 * sizeof(std::uint32_t));
+  HugeArray<std::uint32_t> fresh;
+  std::uint32_t* taken = reinterpret_cast<std::uint32_t*>(complex.planes.data() + planes_kept * rank);
+  const bool has_room =
+      4 * planes_kept <= count && planes_kept + rows.size() <= complex.planes.capacity() / rank;
+  if (!has_room) {
+    complex.planes.discard_from(planes_kept * rank);
+    fresh = HugeArray<std::uint32_t>(rows.size() * width);
+    taken = fresh.data();
+  }
   for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       __builtin_prefetch(complex.topology.data() + old_of_new[rows[std::min(i + kAhead, end - 1)]] * width);
-      std::copy_n(complex.topology.data() + old_of_new[rows[i]] * width, width, taken.data() + i * width);
+      std::uint32_t* row = taken + i * width;
+      std::copy_n(complex.topology.data() + old_of_new[rows[i]] * width, width, row);
+      if (!takes_all) continue;
+      for (std::size_t k = rank; k < width; ++k) row[k] = new_of_old[row[k]];
     }
   });
-  if (takes_all) {
-    complex.topology = std::move(taken);
-  } else {
-    for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        std::copy_n(taken.data() + i * width, width, complex.topology.data() + rows[i] * width);
-    });
+  if (takes_all && !has_room) {
+    complex.topology = std::move(fresh);
+    return;
   }
-  rename_neighbours(complex, new_of_old, rows);
+  for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      std::copy_n(taken + i * width, width, complex.topology.data() + rows[i] * width);
+  });
+  complex.planes.discard_from(planes_kept * rank);
+  if (!takes_all) rename_neighbours(complex, new_of_old, rows);
 }
 
 }  // namespace ndhull

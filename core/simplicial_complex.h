@@ -68,8 +68,10 @@ struct RowMove {
 std::vector<RowMove> compact(SimplicialComplex& complex);
 
 /// Puts the vertices and neighbours of row old_of_new[r] into row r, for all live rows of a compacted
-/// complex, and renames the neighbours. Planes stay where they are. Rows that stay cost one comparison; the
-/// others are copied once.
-void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new);
+/// complex, and renames the neighbours. The first `planes_kept` planes stay where they are; the memory of the
+/// others serves to copy rows through, where it is enough, and is given back. Rows that stay cost one
+/// comparison; the others are copied twice.
+void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new,
+                      std::size_t planes_kept);
 
 }  // namespace ndhull
