@@ -207,10 +207,10 @@ std::vector<PointId> CertifiedGrowth::unproven_points() const {
   return points;
 }
 
-void CertifiedGrowth::certify_unproven(double gauge, std::vector<std::uint32_t> order) {
+void CertifiedGrowth::certify_unproven(double gauge, KnownHighest known) {
   certificate_wanted_.assign(points_.rows, proven_.empty());
   for (std::uint32_t id = 0; id < proven_.size(); ++id) certificate_wanted_[id] = !proven_[id];
-  certificate_order_ = std::move(order);
+  known_highest_ = std::move(known);
   left_out_.clear();
   covered_gauge_ = 0.0;
   hull_.max_outside_gauge = gauge + kFrameRounding;

@@ -48,8 +48,8 @@ class CertifiedGrowth {
   /// Points that may be on or above the hull, ascending: those that were not proven inside early on.
   std::vector<PointId> unproven_points() const;
   /// Instead of locating them: all unproven points are certified one by one. `gauge` is the largest of them
-  /// above any simplex; `order`: of the unproven points, neighbours together (core/point_tree.h).
-  void certify_unproven(double gauge, std::vector<std::uint32_t> order);
+  /// above any simplex; `known`: how far they reach along the simplices' normals, a row each.
+  void certify_unproven(double gauge, KnownHighest known);
   /// Those of left_out() that are outside by more than W and rounding go back; false when there are none.
   bool repair() { return repair(left_out_); }
   /// Puts these points, which are above these simplices, back into outside sets.
@@ -57,6 +57,8 @@ class CertifiedGrowth {
 
   GrowthWork& work() { return work_; }
   const double* coordinates() const { return coordinates_.data(); }
+  const PointView& input() const { return points_; }
+  const Frame& frame() const { return frame_; }
   /// May the simplices be gathered into facets? Not when time is up, memory is short or a stop was requested:
   /// then they are the facets, which takes neither.
   bool may_cover();
@@ -72,8 +74,8 @@ class CertifiedGrowth {
   void choose_certificate_points(std::size_t facets);
   /// One flag a point: vertex of a simplex, or left out.
   std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
-  /// Of the wanted points, neighbours together; empty: not known.
-  std::vector<std::uint32_t> take_certificate_order() { return std::move(certificate_order_); }
+  /// How far the wanted points reach along the normals of the complex' rows; empty: not known.
+  KnownHighest take_known_highest() { return std::move(known_highest_); }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
   void release_coordinates() { coordinates_ = HugeArray<double>(); }
@@ -109,7 +111,7 @@ class CertifiedGrowth {
   WorkLimits limits_;
   bool has_started_ = false, grows_from_some_ = false;
   std::vector<bool> certificate_wanted_;
-  std::vector<std::uint32_t> certificate_order_;
+  KnownHighest known_highest_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early
   std::uint64_t proven_count_ = 0;
   std::vector<LocatedPoint> left_out_;

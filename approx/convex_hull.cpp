@@ -89,11 +89,18 @@ class HullBuilder {
       approximate(factor);
     }
     const Clock::time_point merge_start = Clock::now();
-    for (const RowMove& move : compact(complex()))
+    KnownHighest known = growth_->take_known_highest();
+    for (const RowMove& move : compact(complex())) {
       if (!clusters_.cluster_of.empty()) clusters_.cluster_of[move.to] = clusters_.cluster_of[move.from];
+      if (known.highest.empty()) continue;
+      known.highest[move.to] = known.highest[move.from];
+      std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
+                  known.normals.data() + move.to * frame_.dimension);
+    }
     if (!clusters_.cluster_of.empty()) clusters_.cluster_of.resize(complex().row_count);
     merge();
-    make_facets();
+    if (clusters_.count > 0) known = KnownHighest();  // facets are no longer the rows
+    make_facets(known);
     seconds(Phase::kMerge) += seconds_since(merge_start);
     return std::move(hull_);
   }
@@ -177,7 +184,7 @@ class HullBuilder {
     return is_corner;
   }
 
-  void make_facets() {
+  void make_facets(const KnownHighest& known) {
     Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
     is_vertex_ =
@@ -186,15 +193,16 @@ class HullBuilder {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
     growth_->choose_certificate_points(hull_.layout_.facets);
-    CertificatePoints certificate = gather_certificate_points(points_, frame_, growth_->certificate_wanted());
-    certificate.order = growth_->take_certificate_order();
+    const bool is_known = !known.highest.empty();
+    const CertificatePoints certificate = gather_certificate_points(
+        points_, frame_, is_known ? find_corners() : growth_->certificate_wanted(), is_known);
     hull_.reference = certificate.reference;
     growth_->release_coordinates();
     detail("vertices", start);
     start = Clock::now();
     FacetTable table = make_facet_table(complex(), hull_.layout_, frame_, certificate,
                                         {determinants_.data(), complex().row_count}, hull_.length_unit_,
-                                        growth_->covered_points(), options_.certifies_planes);
+                                        growth_->covered_points(), known, options_.certifies_planes);
     detail("facet table", start);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);

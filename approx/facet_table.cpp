@@ -79,8 +79,7 @@ void find_highest(const CertificatePoints& points, std::span<const double> norma
   const std::size_t dimension = points.dimension, count = highest.size();
   // Facets are independent: the result does not depend on how they are shared out.
   if (count >= kFewFacets && points.rows.size() / dimension >= kManyPoints) {
-    const PointTree tree = points.order.empty() ? PointTree(dimension, points.rows)
-                                                : PointTree(dimension, points.rows, points.order);
+    const PointTree tree(dimension, points.rows);
     std::vector<FurthestPoint> furthest(count);
     for (std::size_t facet = 0; facet < count; ++facet) furthest[facet].dot = own.high[facet];
     find_furthest(tree, normals, furthest);
@@ -100,6 +99,20 @@ void find_highest(const CertificatePoints& points, std::span<const double> norma
   find(simplicial, count, 0);
 }
 
+/// What is known, raised by what a normal that differs from the one it is known for can change.
+void take_highest(const KnownHighest& known, const CertificatePoints& points, std::span<const double> normals,
+                  std::span<const double> own_high, std::span<double> highest) {
+  constexpr double kRoundedUp = 1.0 + 1e-14;
+  for (std::size_t facet = 0; facet < highest.size(); ++facet) {
+    double change = 0.0;
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      const std::size_t at = facet * points.dimension + k;
+      change += std::abs(normals[at] - known.normals[at]) * points.largest[k];
+    }
+    highest[facet] = std::max(own_high[facet], known.highest[facet] + change * kRoundedUp);
+  }
+}
+
 /// Areas of the merged facets: of the projection of their simplices onto their plane.
 void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
                    double area_per_determinant, HugeArray<double>& areas) {
@@ -117,22 +130,30 @@ void project_areas(const FacetLayout& layout, const Frame& frame, std::span<cons
 
 }  // namespace
 
-CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
-                                            const std::vector<bool>& wanted) {
+std::vector<double> certificate_reference(const Frame& frame) {
   constexpr double kFar = 4.0;  // extents: two bits of the data's digits are worth a plane at the origin
+  for (std::size_t k = 0; k < frame.dimension; ++k) {
+    const double largest = std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k]));
+    const double extent = frame.column_max[k] - frame.column_min[k];
+    if (extent > 0.0 && largest > kFar * extent) return frame.centre;
+  }
+  return std::vector<double>(frame.dimension, 0.0);
+}
+
+CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
+                                            const std::vector<bool>& wanted, bool is_known) {
   CertificatePoints result;
   const std::size_t dimension = points.dimension;
   result.dimension = dimension;
-  result.reference.assign(dimension, 0.0);
+  result.reference = certificate_reference(frame);
   result.largest_input.resize(dimension);
-  bool is_far = false;
+  result.largest.assign(dimension, 0.0);
   for (std::size_t k = 0; k < dimension; ++k) {
     result.largest_input[k] = std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k]));
-    const double extent = frame.column_max[k] - frame.column_min[k];
-    is_far = is_far || (extent > 0.0 && result.largest_input[k] > kFar * extent);
+    if (!is_known) continue;
+    result.largest[k] = std::max(std::abs(frame.column_min[k] - result.reference[k]),
+                                 std::abs(frame.column_max[k] - result.reference[k]));
   }
-  if (is_far) result.reference = frame.centre;
-  result.largest.assign(dimension, 0.0);
   result.row_of_point.assign(points.rows, 0);
   const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
   result.rows.reserve(count * dimension);
@@ -150,7 +171,8 @@ CertificatePoints gather_certificate_points(const PointView& points, const Frame
 
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, const CoveredPoints& covered, bool certifies) {
+                            const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
+                            bool certifies) {
   const std::size_t dimension = frame.dimension;
   const std::size_t count = layout.facets;
   FacetTable table;
@@ -174,7 +196,9 @@ FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layou
            high.first(layout.simplicial));
   merged_dots(complex, layout, points, normals.data(), low, high);
   const std::span<double> highest(table.outer.data(), count);
-  if (certifies) {
+  if (certifies && !known.highest.empty()) {
+    take_highest(known, points, normals, high, highest);
+  } else if (certifies) {
     find_highest(points, normals, {low, high, frame.rank}, layout.simplicial, highest);
   } else {
     std::fill(highest.begin(), highest.end(), HUGE_VAL);

@@ -23,14 +23,22 @@ struct CertificatePoints {
   std::vector<double> largest;              ///< per column: largest |x - reference|
   std::vector<double> largest_input;        ///< per column: largest |x|
   std::vector<std::uint32_t> row_of_point;  ///< for the points that are in `rows`
-  std::vector<std::uint32_t> order;         ///< of the rows, neighbours together; empty: not known
 };
 
-/// `wanted`: one flag a point of the input.
-/// The reference is the origin unless the data lie further from it than four times their extent: then planes
-/// stated at the origin would lose the digits that the data have, and the reference is the frame's centre.
+/// How far all points to be certified reach along normals that are those of the facets, or hardly differ.
+struct KnownHighest {
+  std::vector<double> normals;  ///< one row a facet, of `dimension` numbers
+  std::vector<double> highest;  ///< largest product with x - reference; empty: nothing is known
+};
+
+/// The origin, unless the data lie further from it than four times their extent: then planes stated at the
+/// origin would lose the digits that the data have, and it is the frame's centre.
+std::vector<double> certificate_reference(const Frame& frame);
+
+/// `wanted`: one flag a point of the input; all vertices are. `is_known`: how far the points reach is known,
+/// and these are not all; then `largest` is that of the whole input.
 CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
-                                            const std::vector<bool>& wanted);
+                                            const std::vector<bool>& wanted, bool is_known);
 
 /// One row a facet.
 struct FacetTable {
@@ -52,6 +60,7 @@ struct CoveredPoints {
 };
 
 /// Makes planes, certificates and areas of all facets. Unless it `certifies`, outer offsets are +infinity.
+/// `known`: of each facet, or empty; then the points are searched.
 ///
 /// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
 ///           consumed: turned into the normals in place where the shapes allow.
@@ -59,10 +68,12 @@ struct CoveredPoints {
 /// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
 ///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
+///           What is known for a normal that differs is raised by the sum of |differences| x largest.
 /// Cost      at most facets x points x dimension fused multiply-adds (core/highest_dots.h,
-/// core/point_tree.h).
+///           core/point_tree.h); where the products are known, dimension for each facet.
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, const CoveredPoints& covered, bool certifies);
+                            const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
+                            bool certifies);
 
 }  // namespace ndhull

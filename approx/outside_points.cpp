@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "approx/frame_planes.h"
+
 namespace ndhull {
 namespace {
 
@@ -22,20 +24,57 @@ constexpr double kNearlyThere = 1.02;
 /// than this many W above, a half is near enough.
 constexpr double kShare = 0.2, kShareFarAbove = 0.5, kFarAbove = 1.5;
 
+/// From so many points on, every so-manieth is searched first.
+constexpr std::size_t kManyPoints = 1 << 15, kStep = 16;
+
 }  // namespace
 
-OutsideSearch::OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> points)
-    : growth_(growth), points_(std::move(points)) {
+OutsideSearch::OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> points, bool certifies)
+    : growth_(growth), points_(std::move(points)), certifies_(certifies) {
   if (points_.empty()) return;
-  const std::size_t rank = growth_.work().rank;
-  if (points_.size() == growth_.work().point_count) {  // ascending: all of them
-    tree_.emplace(rank, std::span<const double>(growth_.coordinates(), points_.size() * rank));
-    return;
+  dimension_ = certifies ? growth_.frame().dimension : growth_.frame().rank;
+  if (!takes_input_rows()) copy_rows();
+  search_among(certifies && points_.size() >= kManyPoints ? kStep : 1);
+}
+
+/// Where the input has the rows as they are wanted they need no copy.
+bool OutsideSearch::takes_input_rows() {
+  const PointView& input = growth_.input();
+  const Frame& frame = growth_.frame();
+  const std::vector<double> reference = certificate_reference(frame);
+  const auto zeros = std::count(reference.begin(), reference.end(), 0.0);
+  if (!certifies_ || points_.size() != input.rows || input.type != ScalarType::kFloat64 ||
+      input.column_stride != 1 || zeros != std::ssize(reference))
+    return false;
+  rows_ = {static_cast<const double*>(input.data), input.rows, input.row_stride};
+  low_ = frame.column_min;
+  high_ = frame.column_max;
+  return true;
+}
+
+void OutsideSearch::copy_rows() {
+  const std::vector<double> reference = certificate_reference(growth_.frame());
+  copy_.resize(points_.size() * dimension_);
+  low_.assign(dimension_, HUGE_VAL);
+  high_.assign(dimension_, -HUGE_VAL);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::size_t id = points_[i].value;
+    for (std::size_t k = 0; k < dimension_; ++k) {
+      const double x =
+          certifies_ ? growth_.input().at(id, k) - reference[k] : growth_.coordinates()[id * dimension_ + k];
+      copy_[i * dimension_ + k] = x;
+      low_[k] = std::min(low_[k], x);
+      high_[k] = std::max(high_[k], x);
+    }
   }
-  std::vector<double> rows(points_.size() * rank);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    std::copy_n(growth_.coordinates() + std::size_t{points_[i].value} * rank, rank, rows.data() + i * rank);
-  tree_.emplace(rank, rows);
+  rows_ = {copy_.data(), points_.size(), dimension_};
+}
+
+void OutsideSearch::search_among(std::size_t step) {
+  step_ = step;
+  planes_.clear();
+  furthest_.emplace(dimension_, StridedRows{rows_.data, (rows_.count + step - 1) / step, rows_.stride * step},
+                    low_, high_, certifies_);
 }
 
 void OutsideSearch::search_new_planes() {
@@ -47,37 +86,69 @@ void OutsideSearch::search_new_planes() {
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     const double* plane = complex.plane(SimplexId{row}).data();
     if (complex.state[row] != SimplexState::kLive) continue;
-    if (std::memcmp(plane, planes_.data() + row * rank, rank * sizeof(double)) != 0) rows.push_back(row);
+    if (std::memcmp(plane, planes_.data() + row * rank, rank * sizeof(double)) == 0) continue;
+    std::copy_n(plane, rank, planes_.data() + row * rank);
+    rows.push_back(row);
   }
   std::vector<double> normals(rows.size() * rank);
-  std::vector<FurthestPoint> furthest(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::copy_n(complex.plane(SimplexId{rows[i]}).data(), rank, normals.data() + i * rank);
-    furthest[i].dot = 1.0;  // its vertices
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::copy_n(planes_.data() + rows[i] * rank, rank, normals.data() + i * rank);
+  std::vector<FurthestPoint> furthest(rows.size(), FurthestPoint{1.0});  // a plane's vertices
+  if (certifies_) {
+    std::fill(furthest.begin(), furthest.end(), FurthestPoint{-HUGE_VAL});
+    const std::vector<double> planes = std::move(normals);
+    normals.resize(rows.size() * dimension_);
+    map_normals(growth_.frame(), planes.data(), rows.size(), normals.data());
   }
-  find_furthest(*tree_, normals, furthest);
+  furthest_->find(normals, furthest);
+  for (std::size_t i = 0; i < rows.size(); ++i) above_[rows[i]] = above_row(rows[i], furthest[i]);
+  if (certifies_) note_known(rows, normals, furthest);
+  worst_ = 0.0;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row)
+    if (complex.state[row] == SimplexState::kLive) worst_ = std::max(worst_, above_[row].height);
+}
+
+OutsideSearch::Above OutsideSearch::above_row(std::uint32_t row, const FurthestPoint& found) const {
+  if (found.row == FurthestPoint::kNoRow) return {};
+  const std::size_t rank = growth_.work().rank;
+  const PointId id = points_[found.row * step_];
+  double gauge = -1.0;
+  for (std::size_t k = 0; k < rank; ++k)
+    gauge += planes_[row * rank + k] * growth_.coordinates()[std::size_t{id.value} * rank + k];
+  return {height_above(growth_.work(), row, gauge), {id, SimplexId{row}, gauge}};
+}
+
+void OutsideSearch::note_known(std::span<const std::uint32_t> rows, std::span<const double> normals,
+                               std::span<const FurthestPoint> furthest) {
+  const std::size_t count = growth_.work().complex.row_count;
+  known_.normals.resize(count * dimension_);
+  known_.highest.resize(count);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::copy_n(normals.data() + i * rank, rank, planes_.data() + rows[i] * rank);
-    const FurthestPoint& found = furthest[i];
-    const double gauge = found.dot - 1.0;
-    const PointId id = found.row == FurthestPoint::kNoRow ? PointId{} : points_[found.row];
-    above_[rows[i]] = {height_above(growth_.work(), rows[i], gauge), {id, SimplexId{rows[i]}, gauge}};
+    std::copy_n(normals.data() + i * dimension_, dimension_, known_.normals.data() + rows[i] * dimension_);
+    known_.highest[rows[i]] = furthest[i].dot;
   }
 }
 
-bool OutsideSearch::put_back_above(double width) {
-  if (!tree_) return false;
+/// Is any point further above than is allowed by now?
+bool OutsideSearch::finds_above(double width, double wanted) {
   search_new_planes();
-  const SimplicialComplex& complex = growth_.work().complex;
-  const std::size_t live = complex.row_count - growth_.work().free_count;
+  const std::size_t live = growth_.work().complex.row_count - growth_.work().free_count;
   if (enough_ == 0) enough_ = static_cast<std::size_t>(kWorthNoSlack * static_cast<double>(live));
-  double worst = 0.0;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row)
-    if (complex.state[row] == SimplexState::kLive) worst = std::max(worst, above_[row].height);
-  if (worst <= (live < enough_ ? 1.0 : kOutsideSlack) * width) return false;
+  return worst_ > (live < enough_ ? wanted : kOutsideSlack * width);
+}
+
+bool OutsideSearch::put_back_above(double width, double wanted) {
+  if (!furthest_) return false;
+  bool finds_some = finds_above(width, wanted);
+  if (!finds_some && step_ > 1) {
+    search_among(1);
+    finds_some = finds_above(width, wanted);
+  }
+  if (!finds_some) return false;
+  const SimplicialComplex& complex = growth_.work().complex;
   // The furthest alone: the simplices that they bring may well be all that the others need.
-  const double share = worst < kFarAbove * width ? kShare : kShareFarAbove;
-  const double least = worst < kNearlyThere * width ? width : worst - share * (worst - width);
+  const double share = worst_ < kFarAbove * width ? kShare : kShareFarAbove;
+  const double least = worst_ < kNearlyThere * wanted ? wanted : worst_ - share * (worst_ - wanted);
   std::vector<Above> back;
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     if (complex.state[row] == SimplexState::kLive && above_[row].height >= least) back.push_back(above_[row]);
@@ -95,7 +166,8 @@ bool OutsideSearch::put_back_above(double width) {
 }
 
 double OutsideSearch::largest_gauge() {
-  if (!tree_) return 0.0;
+  if (!furthest_) return 0.0;
+  if (step_ > 1) search_among(1);
   search_new_planes();
   const SimplicialComplex& complex = growth_.work().complex;
   double largest = 0.0;

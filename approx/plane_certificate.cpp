@@ -16,7 +16,7 @@ PlaneCertificate certify_planes(const PointView& points, const Frame& frame,
                                 std::span<const PlaneOfPoints> facets) {
   const std::size_t dimension = frame.dimension;
   const CertificatePoints all =
-      gather_certificate_points(points, frame, std::vector<bool>(points.rows, true));
+      gather_certificate_points(points, frame, std::vector<bool>(points.rows, true), false);
   PlaneCertificate result;
   result.reference = all.reference;
   std::vector<double> normals(facets.size() * dimension), highest(facets.size());

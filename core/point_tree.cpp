@@ -132,12 +132,6 @@ PointTree::PointTree(std::size_t dimension, std::span<const double> points) : di
   fill(points);
 }
 
-PointTree::PointTree(std::size_t dimension, std::span<const double> points, std::vector<std::uint32_t> order)
-    : dimension_(dimension), order_(std::move(order)) {
-  find_columns(points);
-  fill(points);
-}
-
 void PointTree::find_columns(std::span<const double> points) {
   column_sizes_.assign(dimension_, 1.0);
   middle_.assign(dimension_, 0.0);

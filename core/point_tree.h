@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace ndhull {
@@ -35,14 +34,11 @@ class PointTree {
   /// Cost    O(n log n) for n points, shared out among threads; 12 bytes a coordinate. The same for any
   ///         number of threads.
   PointTree(std::size_t dimension, std::span<const double> points);
-  /// For the same points in other coordinates: their order is known.
-  PointTree(std::size_t dimension, std::span<const double> points, std::vector<std::uint32_t> order);
 
   std::size_t dimension() const { return dimension_; }
   std::size_t point_count() const { return order_.size(); }
   /// Place i of the tree holds this row of the points.
   const std::vector<std::uint32_t>& order() const { return order_; }
-  std::vector<std::uint32_t> take_order() && { return std::move(order_); }
   /// Cones are in coordinates x / size - middle of each column, which are in [-2, 2].
   std::span<const double> column_sizes() const { return column_sizes_; }
   std::span<const double> middle() const { return middle_; }

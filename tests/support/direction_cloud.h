@@ -1,0 +1,60 @@
+// Points and directions for tests of searches along directions.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace ndhull {
+
+enum class CloudShape { kSphere, kBall, kFarSphere, kFlat, kCubeCorners };
+
+/// Points, the ranges of their columns, and directions.
+struct DirectionCloud {
+  static constexpr std::size_t kNormals = 37;
+  std::size_t dimension = 0;
+  std::vector<double> points = {}, normals = {}, low = {}, high = {};
+
+  void find_ranges() {
+    low.assign(dimension, HUGE_VAL);
+    high.assign(dimension, -HUGE_VAL);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      low[i % dimension] = std::min(low[i % dimension], points[i]);
+      high[i % dimension] = std::max(high[i % dimension], points[i]);
+    }
+  }
+};
+
+/// Column k is multiplied by scale^k, the normals by its inverse. Flat: all in the plane x_0 = 1. Every fifth
+/// direction is an axis.
+inline DirectionCloud make_cloud(CloudShape shape, std::size_t dimension, std::size_t count, double scale) {
+  std::mt19937_64 random(dimension * 1000 + count);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.01, 1.0);
+  DirectionCloud cloud{.dimension = dimension};
+  for (std::size_t row = 0; row < count + DirectionCloud::kNormals; ++row) {
+    const bool is_point = row < count;
+    std::vector<double> x(dimension);
+    double length_sq = 0.0;
+    for (double& value : x) {
+      value = normal(random);
+      length_sq += value * value;
+    }
+    const double radius = is_point && shape == CloudShape::kBall ? uniform(random) : 1.0;
+    for (std::size_t k = 0; k < dimension; ++k) {
+      double value = radius * x[k] / std::sqrt(length_sq);
+      if (is_point && shape == CloudShape::kFarSphere) value += 100.0;
+      if (is_point && shape == CloudShape::kFlat && k == 0) value = 1.0;
+      if (is_point && shape == CloudShape::kCubeCorners) value = x[k] < 0.0 ? -1.0 : 1.0;
+      if (!is_point && row % 5 == 0) value = k == row % dimension ? 1.0 : 0.0;
+      (is_point ? cloud.points : cloud.normals)
+          .push_back(value * std::pow(scale, (is_point ? 1.0 : -1.0) * static_cast<double>(k)));
+    }
+  }
+  cloud.find_ranges();
+  return cloud;
+}
+
+}  // namespace ndhull
