@@ -5,9 +5,9 @@
 
 #include "approx/frame_planes.h"
 #include "core/blocks.h"
+#include "core/furthest_points.h"
 #include "core/highest_dots.h"
 #include "core/plane_kernels.h"
-#include "core/point_tree.h"
 
 namespace ndhull {
 namespace {
@@ -79,10 +79,17 @@ void find_highest(const CertificatePoints& points, std::span<const double> norma
   const std::size_t dimension = points.dimension, count = highest.size();
   // Facets are independent: the result does not depend on how they are shared out.
   if (count >= kFewFacets && points.rows.size() / dimension >= kManyPoints) {
-    const PointTree tree(dimension, points.rows);
+    const StridedRows rows{points.rows.data(), points.rows.size() / dimension, dimension};
+    std::vector<double> low(dimension, HUGE_VAL), high(dimension, -HUGE_VAL);
+    for (std::size_t i = 0; i < points.rows.size(); i += dimension) {
+      for (std::size_t k = 0; k < dimension; ++k) {
+        low[k] = std::min(low[k], points.rows[i + k]);
+        high[k] = std::max(high[k], points.rows[i + k]);
+      }
+    }
     std::vector<FurthestPoint> furthest(count);
     for (std::size_t facet = 0; facet < count; ++facet) furthest[facet].dot = own.high[facet];
-    find_furthest(tree, normals, furthest);
+    FurthestPoints(dimension, rows, low, high, false).find(normals, furthest);
     for (std::size_t facet = 0; facet < count; ++facet) highest[facet] = furthest[facet].dot;
     return;
   }

@@ -70,7 +70,7 @@ struct CoveredPoints {
 ///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
 ///           What is known for a normal that differs is raised by the sum of |differences| x largest.
 /// Cost      at most facets x points x dimension fused multiply-adds (core/highest_dots.h,
-///           core/point_tree.h); where the products are known, dimension for each facet.
+///           core/furthest_points.h); where the products are known, dimension for each facet.
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, std::span<const double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,

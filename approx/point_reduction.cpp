@@ -82,7 +82,7 @@ class Reduction {
   }
 
   std::vector<std::uint32_t> run(const std::function<bool()>& is_late) {
-    if (!find_ranges() || holds_none() || !start()) return all_candidates();
+    if (holds_none() || !find_ranges() || !start()) return all_candidates();
     const std::size_t most_rows = std::min(kMostRows, shards_.rows / kPointsForARow);
     std::size_t left = shards_.rows, rows = most_rows / kMoreRows;
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -168,9 +168,11 @@ class Reduction {
 
   /// Is no point of a small sample inside a small hull of it? Then a larger hull holds hardly any either.
   bool holds_none() const {
+    constexpr std::size_t kLookedAt = 512;
     const std::size_t dimension = shards_.dimension;
     if (dimension < 2 || dimension > kMaxRank) return false;
     const std::vector<double> sample = take_sample(kFirstSample);
+    if (!std::all_of(sample.begin(), sample.end(), [](double x) { return std::isfinite(x); })) return false;
     const PointView view = PointView::row_major(sample.data(), sample.size() / dimension, dimension);
     const Frame frame = fit_frame(view);
     if (frame.rank < dimension) return false;
@@ -185,7 +187,8 @@ class Reduction {
     start_growth(work, frame.simplex, FirstPoints());
     grow(work);
     std::vector<PointId> ids;
-    for (std::uint32_t row = 0; row < view.rows; ++row) ids.push_back(PointId{row});
+    for (std::size_t row = 0; row < view.rows; row += 1 + view.rows / kLookedAt)
+      ids.push_back(PointId{static_cast<std::uint32_t>(row)});
     const HullBall ball = find_ball(dimension, coordinates.data(), view.rows, frame.simplex);
     const std::vector<LocatedPoint> located = try_inside(work.complex, coordinates.data(), ball, ids);
     return std::none_of(located.begin(), located.end(),

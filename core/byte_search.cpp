@@ -197,6 +197,7 @@ class SegmentSearch {
                 const std::int16_t* maxima, ByteDirection& direction, std::vector<std::size_t>& candidates)
       : points_(points),
         first_chunk_(first_chunk),
+        chunks_(chunks),
         vectors_((chunks + chunks_in_vector() - 1) / chunks_in_vector()),
         maxima_(maxima),
         direction_(direction),
@@ -245,7 +246,8 @@ class SegmentSearch {
         while (bits != 0) {
           const std::size_t chunk = static_cast<std::size_t>(__builtin_ctzll(bits)) / kept_lanes();
           bits &= ~(of_chunk << chunk * kept_lanes());
-          list_in_chunk(first_chunk_ + at * chunks_in_vector() + chunk, low);
+          const std::size_t in_segment = at * chunks_in_vector() + chunk;
+          if (in_segment < chunks_) list_in_chunk(first_chunk_ + in_segment, low);
         }
       }
     }
@@ -290,7 +292,7 @@ class SegmentSearch {
 
   static constexpr Sums tag_{};
   const BytePoints& points_;
-  std::size_t first_chunk_, vectors_;
+  std::size_t first_chunk_, chunks_, vectors_;
   const std::int16_t* maxima_;
   ByteDirection& direction_;
   std::vector<std::size_t>& candidates_;
@@ -300,14 +302,16 @@ class SegmentSearch {
 /// Points of a segment stay in the second-level cache while all directions of a block pass over them.
 template <std::size_t kPairs>
 void search_bytes(const BytePoints& points, std::span<ByteDirection> directions, ByteSearchMemory& memory) {
-  constexpr std::size_t kSegmentBytes = std::size_t{1} << 19;
+  constexpr std::size_t kSegmentBytes = std::size_t{3} << 18;
   constexpr std::size_t kChunkBytes = BytePoints::kTile * BytePoints::kTilesInChunk * 2 * kPairs;
-  constexpr std::size_t kChunks = kSegmentBytes / kChunkBytes, kCount = kTogether<kPairs>;
+  constexpr std::size_t kMostChunks = kSegmentBytes / kChunkBytes, kCount = kTogether<kPairs>;
+  const std::size_t all = points.chunk_count(), segments = (all + kMostChunks - 1) / kMostChunks;
+  const std::size_t size = (all + segments - 1) / segments;
   // The last vector of a direction may have room left: no sum is as small.
-  const std::size_t stride = (kChunks + chunks_in_vector()) * kept_lanes();
+  const std::size_t stride = (size + chunks_in_vector()) * kept_lanes();
   memory.maxima.resize(kCount * stride);
-  for (std::size_t first = 0; first < points.chunk_count(); first += kChunks) {
-    const std::size_t chunks = std::min(kChunks, points.chunk_count() - first);
+  for (std::size_t first = 0; first < all; first += size) {
+    const std::size_t chunks = std::min(size, all - first);
     std::fill(memory.maxima.begin(), memory.maxima.end(), std::int16_t{-32768});
     for (std::size_t begin = 0; begin < directions.size(); begin += kCount) {
       ByteDirection together[kCount];

@@ -52,25 +52,43 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 HWY_EXPORT(map_full);
 
+namespace {
+
+template <class Scalar>
+void map_diagonal(const Scalar* data, const PointView& points, const Frame& frame, double* out) {
+  struct Column {
+    std::size_t offset;
+    double centre, scale;
+  };
+  std::vector<Column> columns;
+  for (std::size_t r = 0; r < frame.rank; ++r) {
+    std::size_t k = 0;
+    while (frame.map[r * frame.dimension + k] == 0.0) ++k;
+    columns.push_back({k * points.column_stride, frame.centre[k], frame.map[r * frame.dimension + k]});
+  }
+  constexpr std::size_t kPointsInBlock = 4096;
+  for_each_block(points.rows, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
+    double* to = out + begin * frame.rank;
+    for (std::size_t row = begin; row < end; ++row) {
+      const Scalar* from = data + row * points.row_stride;
+      for (const Column& column : columns)
+        *to++ = (static_cast<double>(from[column.offset]) - column.centre) * column.scale;
+    }
+  });
+}
+
+}  // namespace
+
 void map_points(const PointView& points, const Frame& frame, double* out) {
   if (!frame.is_diagonal) {
     HWY_DYNAMIC_DISPATCH(map_full)(points, frame, out);
     return;
   }
-  std::vector<std::size_t> column_of(frame.rank);
-  for (std::size_t r = 0; r < frame.rank; ++r) {
-    while (frame.map[r * frame.dimension + column_of[r]] == 0.0) ++column_of[r];
+  if (points.type == ScalarType::kFloat64) {
+    map_diagonal(static_cast<const double*>(points.data), points, frame, out);
+  } else {
+    map_diagonal(static_cast<const float*>(points.data), points, frame, out);
   }
-  constexpr std::size_t kPointsInBlock = 4096;
-  for_each_block(points.rows, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      for (std::size_t r = 0; r < frame.rank; ++r) {
-        const std::size_t column = column_of[r];
-        out[row * frame.rank + r] =
-            (points.at(row, column) - frame.centre[column]) * frame.map[r * frame.dimension + column];
-      }
-    }
-  });
 }
 
 }  // namespace ndhull

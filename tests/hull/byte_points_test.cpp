@@ -119,7 +119,7 @@ TEST(BytePointsLaw, DuplicatesAndTinyValuesChangeNothing) {
 TEST(FurthestPointsLaw, ATreeFindsTheSame) {
   const DirectionCloud cloud = make_cloud(CloudShape::kSphere, 3, 3000, 1.0);
   std::vector<double> normals;
-  for (int i = 0; i < 100; ++i) normals.insert(normals.end(), cloud.normals.begin(), cloud.normals.end());
+  for (int i = 0; i < 20; ++i) normals.insert(normals.end(), cloud.normals.begin(), cloud.normals.end());
   FurthestPoints points(3, rows_of(cloud), cloud.low, cloud.high, true);
   const std::vector<FurthestPoint> expected = first_furthest(cloud);
   for (int round = 0; round < 3; ++round) {  // a tree from the second round on
