@@ -134,7 +134,8 @@ bool OutsideSearch::finds_above(double width, double wanted) {
   search_new_planes();
   const std::size_t live = growth_.work().complex.row_count - growth_.work().free_count;
   if (enough_ == 0) enough_ = static_cast<std::size_t>(kWorthNoSlack * static_cast<double>(live));
-  return worst_ > (live < enough_ ? wanted : kOutsideSlack * width);
+  limit_ = live < enough_ ? wanted : kOutsideSlack * width;
+  return worst_ > limit_;
 }
 
 bool OutsideSearch::put_back_above(double width, double wanted) {
@@ -148,7 +149,8 @@ bool OutsideSearch::put_back_above(double width, double wanted) {
   const SimplicialComplex& complex = growth_.work().complex;
   // The furthest alone: the simplices that they bring may well be all that the others need.
   const double share = worst_ < kFarAbove * width ? kShare : kShareFarAbove;
-  const double least = worst_ < kNearlyThere * wanted ? wanted : worst_ - share * (worst_ - wanted);
+  const double least =
+      worst_ < kNearlyThere * wanted ? wanted : std::max(limit_, worst_ - share * (worst_ - wanted));
   std::vector<Above> back;
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     if (complex.state[row] == SimplexState::kLive && above_[row].height >= least) back.push_back(above_[row]);

@@ -67,6 +67,7 @@ class OutsideSearch {
   std::vector<Above> above_;
   KnownHighest known_;
   double worst_ = 0.0;      // height of the furthest of all [distance]
+  double limit_ = 0.0;      // what it may be by now
   std::size_t enough_ = 0;  // simplices from which on only points far above go back
 };
 
