@@ -124,6 +124,35 @@ TEST(ApproximateHullLaw, OutsideWidthHoldsWhereGrowthBeginsWithSomePoints) {
   }
 }
 
+// What the search over all points finds is the certificate, whatever the input looks like: far from the
+// origin, flat in more columns, of other strides, in single precision.
+TEST(ApproximateHullLaw, OutsideWidthIsCertifiedByItsSearchForAnyInput) {
+  const PointSet sphere = family_points(PointFamily::kSphere, 33000, 4, 7);
+  const double extent = extent_of(sphere);
+  HullOptions options;
+  options.accuracy.outside_width = {0.1 * extent, false};
+  const auto expect_laws = [&](const PointView& view) {
+    const Hull hull = convex_hull(view, options);
+    EXPECT_LE(hull.max_facet_width, options.accuracy.outside_width.value);
+    expect_approximate_laws(hull, view);
+  };
+  expect_laws(sphere.view());
+  expect_laws(moved(sphere, std::vector<double>{1e3, -1e6, 0.0, 40.0}).view());
+  expect_laws(embedded(sphere, 6, 3).view());
+  const std::vector<float> floats(sphere.coordinates.begin(), sphere.coordinates.end());
+  expect_laws(PointView::row_major(floats.data(), 33000, 4));
+  std::vector<double> columns;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t row = 0; row < 33000; ++row) columns.push_back(sphere.view().at(row, k));
+  PointView by_columns = PointView::row_major(columns.data(), 33000, 4);
+  by_columns.row_stride = 1;
+  by_columns.column_stride = 33000;
+  expect_laws(by_columns);
+  PointView every_other = sphere.view();  // with a gap behind each row
+  every_other.dimension = 3;
+  expect_approximate_laws(convex_hull(every_other, options), every_other);
+}
+
 /// Cubes of gaussian numbers: like measurements, most near the middle and a few far out along the axes.
 PointSet heavy_tailed_points(std::size_t count, std::size_t dimension) {
   PointSet set = family_points(PointFamily::kGaussian, count, dimension, 11);
