@@ -34,8 +34,8 @@ class FlatSearch {
   static constexpr std::size_t kPlanesInRound = 64;  // a bit each
   static constexpr std::size_t kMostMisses = 16;
   static constexpr std::size_t kAhead = 8;  // simplices on their way from memory
-  static constexpr std::uint32_t kReached = std::uint32_t{1}
-                                            << 31;  // marks a simplex that its facet's walk met
+  // Marks a simplex that its facet's walk met.
+  static constexpr std::uint32_t kReached = std::uint32_t{1} << 31;
 
   void list_vertices() {
     std::vector<std::uint8_t> is_vertex;
@@ -61,7 +61,8 @@ class FlatSearch {
       for (const double entry : complex_.plane(SimplexId{static_cast<std::uint32_t>(row)}))
         square += entry * entry;
       const double area = determinants[row] * determinants[row] * square;
-      exponent[row] = static_cast<std::uint16_t>(kExponents - 1 - (std::bit_cast<std::uint64_t>(area) >> 52));
+      const std::uint64_t bits = (std::bit_cast<std::uint64_t>(area) >> 52) & (kExponents - 1);  // no sign
+      exponent[row] = static_cast<std::uint16_t>(kExponents - 1 - bits);
       ++begin[exponent[row] + 1u];
     }
     for (std::size_t e = 0; e < kExponents; ++e) begin[e + 1] += begin[e];
