@@ -67,10 +67,11 @@ class BytePoints {
 /// Finds the largest product of each normal with any of the points, as find_furthest for trees does; of equal
 /// ones the first row. Error as there.
 ///
+/// Returns  how many products in double precision that took.
 /// Cost  pairs of columns x points / 32 multiplications of vectors: on 10^5 points in 8-d some 5 us a
 ///       direction, on a sphere; where thousands of points are within a hundredth of the furthest, a product
 ///       in double precision for each of them.
-void find_furthest(const BytePoints& points, std::span<const double> normals,
-                   std::span<FurthestPoint> furthest);
+std::size_t find_furthest(const BytePoints& points, std::span<const double> normals,
+                          std::span<FurthestPoint> furthest);
 
 }  // namespace ndhull

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
@@ -50,6 +51,7 @@ struct ByteDirection {
 /// What a search works with; memory that is used again.
 struct ByteSearchMemory {
   std::vector<std::int16_t> maxima;     ///< of the chunks of a segment, whole vectors, for each direction
+  std::size_t tried = 0;                ///< candidates in all
   std::vector<std::size_t> candidates;  ///< places
 };
 
@@ -194,14 +196,14 @@ template <std::size_t kPairs>
 class SegmentSearch {
  public:
   SegmentSearch(const BytePoints& points, std::size_t first_chunk, std::size_t chunks,
-                const std::int16_t* maxima, ByteDirection& direction, std::vector<std::size_t>& candidates)
+                const std::int16_t* maxima, ByteDirection& direction, ByteSearchMemory& memory)
       : points_(points),
         first_chunk_(first_chunk),
         chunks_(chunks),
         vectors_((chunks + chunks_in_vector() - 1) / chunks_in_vector()),
         maxima_(maxima),
         direction_(direction),
-        candidates_(candidates) {
+        memory_(memory) {
     for (std::size_t p = 0; p < kPairs; ++p) weights_[p] = hn::Set(tag_, direction.weights[p]);
   }
 
@@ -235,7 +237,7 @@ class SegmentSearch {
     const auto low = hn::Set(tag_, static_cast<std::int16_t>(least));
     const std::uint64_t of_chunk = (std::uint64_t{1} << kept_lanes()) - 1;
     constexpr std::size_t kBits = 64;
-    candidates_.clear();
+    memory_.candidates.clear();
     for (std::size_t begin = 0; begin < vectors_; begin += kBits) {
       std::uint64_t near = 0;  // which are near cannot be predicted
       for (std::size_t at = begin; at < std::min(begin + kBits, vectors_); ++at)
@@ -264,7 +266,7 @@ class SegmentSearch {
               tile * BytePoints::kTile + at + static_cast<std::size_t>(__builtin_ctzll(bits));
           if (place >= points_.rows().count) break;
           __builtin_prefetch(points_.rows().row(place));
-          candidates_.push_back(place);
+          memory_.candidates.push_back(place);
         }
       }
     }
@@ -272,7 +274,8 @@ class SegmentSearch {
 
   void try_candidates() {
     FurthestPoint& best = direction_.best;
-    for (const std::size_t place : candidates_) {
+    memory_.tried += memory_.candidates.size();
+    for (const std::size_t place : memory_.candidates) {
       const double product = product_with(points_.rows().row(place));
       if (product > best.dot ||
           (product == best.dot && place < best.row && best.row != FurthestPoint::kNoRow))
@@ -295,7 +298,7 @@ class SegmentSearch {
   std::size_t first_chunk_, chunks_, vectors_;
   const std::int16_t* maxima_;
   ByteDirection& direction_;
-  std::vector<std::size_t>& candidates_;
+  ByteSearchMemory& memory_;
   hn::VFromD<Sums> weights_[kPairs];
 };
 
@@ -320,7 +323,7 @@ void search_bytes(const BytePoints& points, std::span<ByteDirection> directions,
       fill_maxima<kPairs>(points, first, chunks, together, memory.maxima.data(), stride);
       for (std::size_t i = 0; i < used; ++i) {
         SegmentSearch<kPairs>(points, first, chunks, memory.maxima.data() + i * stride, directions[begin + i],
-                              memory.candidates)
+                              memory)
             .run();
       }
     }
@@ -347,15 +350,18 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 HWY_EXPORT(find_furthest_in_bytes);
 
-void find_furthest(const BytePoints& points, std::span<const double> normals,
-                   std::span<FurthestPoint> furthest) {
+std::size_t find_furthest(const BytePoints& points, std::span<const double> normals,
+                          std::span<FurthestPoint> furthest) {
   constexpr std::size_t kDirectionsAtATime = 32;
+  std::vector<std::size_t> tried((furthest.size() + kDirectionsAtATime - 1) / kDirectionsAtATime);
   for_each_block(furthest.size(), kDirectionsAtATime, [&](std::size_t begin, std::size_t end) {
     ByteSearchMemory memory;
     HWY_DYNAMIC_DISPATCH(find_furthest_in_bytes)
     (points, normals.subspan(begin * points.dimension(), (end - begin) * points.dimension()),
      furthest.subspan(begin, end - begin), memory);
+    tried[begin / kDirectionsAtATime] = memory.tried;
   });
+  return std::accumulate(tried.begin(), tried.end(), std::size_t{0});
 }
 
 }  // namespace ndhull

@@ -12,8 +12,8 @@
 
 namespace ndhull {
 
-/// Points to be searched again and again. How they are searched follows from the numbers of points and of
-/// directions so far.
+/// Points to be searched again and again. How they are searched follows from the numbers of points, of
+/// directions so far, and of points that bytes could not tell from the furthest.
 class FurthestPoints {
  public:
   /// Shapes  points: at least one row of `dimension` numbers, which must outlive this; low, high: no
@@ -30,6 +30,7 @@ class FurthestPoints {
   void make_tree();
 
   std::size_t dimension_, worth_a_tree_, directions_ = 0;
+  std::size_t tried_ = 0;  // points that bytes left to be tried
   StridedRows points_;
   std::optional<BytePoints> bytes_;
   std::optional<PointTree> tree_;

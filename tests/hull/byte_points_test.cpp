@@ -130,5 +130,20 @@ TEST(FurthestPointsLaw, ATreeFindsTheSame) {
   }
 }
 
+// Thousands of points are as far as any: bytes cannot tell them apart, and a tree takes over in the middle.
+TEST(FurthestPointsLaw, ManyAsFarChangeNothing) {
+  const DirectionCloud cloud = make_cloud(CloudShape::kCubeCorners, 6, 9000, 1.0);
+  std::vector<double> normals;
+  for (int i = 0; i < 40; ++i) normals.insert(normals.end(), cloud.normals.begin(), cloud.normals.end());
+  FurthestPoints points(6, rows_of(cloud), cloud.low, cloud.high, true);
+  const std::vector<FurthestPoint> expected = first_furthest(cloud);
+  for (int round = 0; round < 2; ++round) {
+    std::vector<FurthestPoint> found(normals.size() / 6, FurthestPoint{-HUGE_VAL});
+    points.find(normals, found);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_EQ(found[i].dot, expected[i % DirectionCloud::kNormals].dot);
+  }
+}
+
 }  // namespace
 }  // namespace ndhull
