@@ -9,11 +9,10 @@
 #include "approx/boundedness.h"
 #include "approx/cluster_merge.h"
 #include "approx/merge_rule.h"
+#include "core/ids.h"
 
 namespace ndhull {
 namespace {
-
-constexpr std::uint32_t kNone = FacetId::kNone;
 
 /// How far outside a point is known to be; the furthest comes first.
 struct Reach {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stopwatch.h"
+
 namespace ndhull {
 namespace {
 
@@ -21,10 +23,6 @@ constexpr double kFrameRounding = 1e-14;
 /// of one core on 8-d gaussian points, where the tree of points spares most of them, for widths of half the
 /// size.
 constexpr double kAffordableProducts = 2e12;
-
-double seconds_since(CertifiedGrowth::Clock::time_point start) {
-  return std::chrono::duration<double>(CertifiedGrowth::Clock::now() - start).count();
-}
 
 HullStatus status_of(GrowthStop stop) {
   switch (stop) {

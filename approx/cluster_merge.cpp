@@ -7,10 +7,11 @@
 #include <queue>
 #include <vector>
 
+#include "core/ids.h"
+
 namespace ndhull {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 /// Turning a plane halves the width of a union at best: what is this many times too wide is not turned.
 constexpr double kHopeless = 2.0;
 constexpr unsigned kTrialSteps = 6;   // of the fit when a pair is judged

@@ -25,7 +25,7 @@ void ConeWalk::start_ray(const Eigen::VectorXd& direction, std::uint32_t first_a
   turns_ = false;
   pivot_count_ = pivots_since_refresh_ = 0;
   basis_.resize(static_cast<std::size_t>(rank));
-  inverse_ = Rows::Zero(rank, rank);
+  inverse_ = RowMatrix::Zero(rank, rank);
   plane_.resize(rank);
   weights_.resize(rank);
   for (Index k = 0; k < rank; ++k) {
@@ -48,9 +48,9 @@ bool ConeWalk::start_ridge(const FramePoints& points, std::vector<std::uint32_t>
 
 bool ConeWalk::refresh(const FramePoints& points) {
   const auto rank = static_cast<Index>(points.rank);
-  Rows rows(rank, rank);
+  RowMatrix rows(rank, rank);
   for (Index k = 0; k < rank; ++k) rows.row(k) = points.point(basis_[static_cast<std::size_t>(k)]);
-  const Eigen::PartialPivLU<Rows> factors(rows);
+  const Eigen::PartialPivLU<RowMatrix> factors(rows);
   inverse_ = factors.inverse().transpose();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
   plane_ = factors.solve(ones);

@@ -14,10 +14,11 @@
 // 1970) by Dinkelbach's iteration for the least ratio (Management Science 13, 1967).
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "core/dense_views.h"
 
 namespace ndhull {
 
@@ -62,12 +63,10 @@ class ConeWalk {
   std::size_t pivot_count() const { return pivot_count_; }
 
  private:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   std::size_t leaving_place(const Eigen::VectorXd& entering) const;
 
   std::vector<std::uint32_t> basis_;
-  Rows inverse_;  // row j: c_j with x_i . c_j = 1 for i = j, else 0, over the points x_i of the basis
+  RowMatrix inverse_;  // row j: c_j with x_i . c_j = 1 for i = j, else 0, over the points x_i of the basis
   Eigen::VectorXd plane_;
   Eigen::VectorXd weights_;    // lambda
   Eigen::VectorXd direction_;  // of the ray; empty for a ridge

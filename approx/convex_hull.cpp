@@ -9,7 +9,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -30,15 +29,10 @@
 #include "core/growth.h"
 #include "core/membership.h"
 #include "core/plane_kernels.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void append(const IdRows& rows, IdRows& all) {
   const auto size = static_cast<std::uint32_t>(all.values.size());

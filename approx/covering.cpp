@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "approx/boundedness.h"
+#include "core/ids.h"
 
 namespace ndhull {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
 /// Outward unit normals of the frame's first simplex.
 std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, const Frame& frame,

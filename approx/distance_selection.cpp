@@ -8,21 +8,20 @@
 #include "approx/boundedness.h"
 #include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
+#include "approx/plane_candidates.h"
+#include "core/dense_views.h"
 #include "core/error.h"
 
 namespace ndhull {
 namespace {
 
 using Eigen::Index;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Ids = std::vector<std::uint32_t>;
 
-constexpr std::size_t kMostCandidates = 20'000;
-constexpr std::size_t kMostExchanged = 100;
 constexpr int kExchangeRounds = 3;
 constexpr std::uint64_t kMostSimplices = 200'000;
 /// A round adds this part of the planes that are missing, at least one.
-constexpr std::size_t kRounds = 16;
+constexpr std::size_t kAddingRounds = 16;
 constexpr Index kBlock = 256;
 
 /// A vertex of the polytope: how far above the hull's facets, and above which most.
@@ -96,10 +95,10 @@ class DistanceChoice {
     if (!polytope.bounded || polytope.status != HullStatus::kComplete) return spikes;
     const auto rank = static_cast<Index>(planes_.rank);
     const auto plane_count = static_cast<Index>(planes_.heights.size());
-    const Eigen::Map<const Rows> normals(planes_.normals.data(), plane_count, rank);
+    const Eigen::Map<const RowMatrix> normals(planes_.normals.data(), plane_count, rank);
     const Eigen::Map<const Eigen::VectorXd> heights(planes_.heights.data(), plane_count);
-    const Eigen::Map<const Rows> vertices(polytope.vertices.data(),
-                                          static_cast<Index>(polytope.vertex_count(planes_.rank)), rank);
+    const Eigen::Map<const RowMatrix> vertices(polytope.vertices.data(),
+                                               static_cast<Index>(polytope.vertex_count(planes_.rank)), rank);
     Eigen::MatrixXd above;
     for (Index begin = 0; begin < vertices.rows(); begin += kBlock) {
       const Index used = std::min(kBlock, vertices.rows() - begin);
@@ -132,7 +131,7 @@ class DistanceChoice {
       return true;
     };
     while (chosen.size() < count_) {
-      std::size_t missing = (count_ - chosen.size() + kRounds - 1) / kRounds, added = 0;
+      std::size_t missing = (count_ - chosen.size() + kAddingRounds - 1) / kAddingRounds, added = 0;
       for (const Spike& spike : spikes(chosen)) {
         if (added < missing && add(spike.plane)) ++added;
       }

@@ -5,10 +5,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace ndhull {
+#include "core/dense_views.h"
 
-/// One vector a row.
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+namespace ndhull {
 
 /// Normals n' = n map / |n map|, or a direction that all normals are orthogonal to.
 struct EvenNormals {

@@ -3,25 +3,19 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 
 #include "approx/frame_planes.h"
 #include "approx/ray_shooting.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Points that are asked about between two looks at the clock.
 constexpr std::size_t kBatch = 2048;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A vertex and the plane in the frame that parts it: a.y = level.
 struct FoundVertex {

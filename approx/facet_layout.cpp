@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "core/dimension_switch.h"
+#include "core/ids.h"
 
 namespace ndhull {
 namespace {
-
-constexpr std::uint32_t kNone = FacetId::kNone;
 
 /// Puts row old_of_new[r] of a table of `width` columns into row r, for the rows that old_of_new has; what
 /// was there is lost.

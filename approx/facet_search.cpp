@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "approx/orthonormal.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
 namespace {
@@ -49,15 +50,14 @@ bool is_one_unit(const std::vector<double>& extents) {
 /// Directions uniform in a unit are orthonormal axes of the data's subspace there times normal numbers.
 Eigen::MatrixXd direction_map(const Frame& frame, const std::vector<double>& scale) {
   const auto rank = static_cast<Index>(frame.rank), dimension = static_cast<Index>(frame.dimension);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> map(frame.map.data(), rank, dimension);
+  const Eigen::Map<const RowMatrix> map(frame.map.data(), rank, dimension);
   Eigen::VectorXd scales(dimension);
   for (Index k = 0; k < dimension; ++k) {
     const double extent = scale[static_cast<std::size_t>(k)];
     scales[k] = extent > 0.0 ? extent : 1.0;
   }
   if (frame.rank == frame.dimension) return map * scales.asDiagonal();
-  Eigen::MatrixXd spanned = Eigen::Map<const Rows>(frame.basis.data(), rank, dimension).transpose();
+  Eigen::MatrixXd spanned = Eigen::Map<const RowMatrix>(frame.basis.data(), rank, dimension).transpose();
   spanned = (scales.cwiseInverse().asDiagonal() * spanned).eval();
   for (Index column = 0; column < rank; ++column) spanned.col(column).normalize();
   return map * scales.asDiagonal() * orthonormal_columns(spanned, rank);

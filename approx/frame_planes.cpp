@@ -8,32 +8,23 @@
 
 #include "approx/orthonormal.h"
 #include "core/blocks.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
-namespace {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using ConstRows = Eigen::Map<const RowMatrix>;
-
-ConstRows rows_of(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
-  return {values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns)};
-}
-
-}  // namespace
 
 double volume_scale(const Frame& frame) {
-  const ConstRows map = rows_of(frame.map, frame.rank, frame.dimension);
+  const auto map = as_rows(frame.map, frame.dimension);
   if (frame.rank == frame.dimension) return std::abs(RowMatrix(map).determinant());
-  const ConstRows basis = rows_of(frame.basis, frame.rank, frame.dimension);
+  const auto basis = as_rows(frame.basis, frame.dimension);
   const double spanned = RowMatrix(basis * basis.transpose()).determinant();
   return std::abs(RowMatrix(map * basis.transpose()).determinant()) / std::sqrt(spanned);
 }
 
 void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out, double* lengths) {
   const std::size_t rank = frame.rank, dimension = frame.dimension;
-  RowMatrix to_input = rows_of(frame.map, rank, dimension);
+  RowMatrix to_input = as_rows(frame.map, dimension);
   if (rank < dimension) {  // keep the part of the normal that lies in the subspace
-    const ConstRows basis = rows_of(frame.basis, rank, dimension);
+    const auto basis = as_rows(frame.basis, dimension);
     const RowMatrix gram = basis * basis.transpose();
     to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
   }

@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -20,22 +19,15 @@
 #include "approx/orthonormal.h"
 #include "approx/plane_polytope.h"
 #include "approx/polytope_vertices.h"
+#include "core/dense_views.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Eigen::Index;
 using Eigen::VectorXd;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
-  return {values.data(), static_cast<Index>(values.size())};
-}
 
 HullOptions dual_options(const IntersectionOptions& options) {
   HullOptions dual;

@@ -8,6 +8,7 @@
 
 #include "approx/even_normals.h"
 #include "core/column_table.h"
+#include "core/dense_views.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -25,14 +26,6 @@ constexpr double kFlatRoundings = 32.0;
 constexpr int kPasses = 3;
 /// [ratio] Weights of a combination, which sum to 1, that are more than rounding.
 constexpr double kWeightRoundoff = 1e-10;
-
-std::span<const double> as_span(const VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
-Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
-  return {values.data(), static_cast<Index>(values.size())};
-}
 
 /// Planes in coordinates w of the subspace: x + basis w is below a plane when normal . w <= height.
 struct LocalPlanes {

@@ -5,12 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/dense_views.h"
 #include "core/dimension_switch.h"
 
 namespace ndhull {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Matrix = RowMatrix;
 using Vector = Eigen::VectorXd;
 
 constexpr double kUnitRoundoff = 0x1p-53;

@@ -10,7 +10,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -22,15 +21,10 @@
 #include "approx/largest_search.h"
 #include "approx/plane_certificate.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What kAuto spends on the whole hull: at most some seconds and a gigabyte.
 constexpr std::uint64_t kAutoFacets = 2'500'000;

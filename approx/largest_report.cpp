@@ -1,25 +1,11 @@
 #include "approx/largest_report.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "approx/report_json.h"
 
 namespace ndhull {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-struct OptionToJson {
-  Json operator()(std::monostate) const { return nullptr; }
-  template <class T>
-  Json operator()(const T& value) const {
-    return value;
-  }
-};
-
-template <class Number>
-Json limit(Number value) {
-  return value == Number{} ? Json(nullptr) : Json(value);
-}
 
 Json options_of(const LargestReportContext& context) {
   const LargestOptions& options = context.options;

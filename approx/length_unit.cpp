@@ -4,25 +4,15 @@
 
 #include "approx/frame_planes.h"
 #include "approx/orthonormal.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
-namespace {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Eigen::Map<const RowMatrix> rows_of(const std::vector<double>& values, std::size_t columns) {
-  return {values.data(), static_cast<Eigen::Index>(values.size() / columns),
-          static_cast<Eigen::Index>(columns)};
-}
-
-}  // namespace
-
 LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
   if (!unit_cube) return;
   extents_.resize(frame.dimension);
   for (std::size_t k = 0; k < frame.dimension; ++k) extents_[k] = frame.column_max[k] - frame.column_min[k];
   if (frame.rank == frame.dimension) return;
-  Eigen::MatrixXd spanned = rows_of(frame.basis, frame.dimension).transpose();
+  Eigen::MatrixXd spanned = as_rows(frame.basis, frame.dimension).transpose();
   for (std::size_t k = 0; k < frame.dimension; ++k) {
     spanned.row(static_cast<Eigen::Index>(k)) *= extents_[k] > 0.0 ? 1.0 / extents_[k] : 0.0;
   }
@@ -37,7 +27,7 @@ std::vector<double> LengthUnit::gradient(std::span<const double> normal) const {
   for (std::size_t k = 0; k < normal.size(); ++k) scaled[k] *= extents_[k];
   if (directions_.empty()) return scaled;
   const Eigen::VectorXd inside =
-      rows_of(directions_, normal.size()) *
+      as_rows(directions_, normal.size()) *
       Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size()));
   return {inside.data(), inside.data() + inside.size()};
 }

@@ -9,23 +9,19 @@
 #include "approx/hull_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/subspace.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
 namespace {
 
 using Eigen::Index;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr std::size_t kMostNearestPoints = 2000;
 // Where the outer polytope's size is limited so is what comes after: multiplications, a second or less each.
 constexpr double kAffordableHeights = 4e9, kAffordableNearest = 4e8;
 
 /// Vertices whose products with all planes are held at once.
-constexpr Index kBlock = 256;
-
-Eigen::Map<const Rows> rows_of(const std::vector<double>& values, std::size_t columns) {
-  return {values.data(), static_cast<Index>(values.size() / columns), static_cast<Index>(columns)};
-}
+constexpr Index kVertexBlock = 256;
 
 /// The hull's vertices as columns, about its interior point, in the coordinates of its outer planes.
 Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
@@ -41,14 +37,14 @@ Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
 }
 
 /// No point of the hull on the ray through the vertex is further from it than this.
-std::vector<double> most_distances(const Eigen::Map<const Rows>& vertices,
+std::vector<double> most_distances(const Eigen::Map<const RowMatrix>& vertices,
                                    const PlanesAboutOrigin& hull_planes) {
-  const Eigen::Map<const Rows> normals = rows_of(hull_planes.normals, hull_planes.rank);
+  const Eigen::Map<const RowMatrix> normals = as_rows(hull_planes.normals, hull_planes.rank);
   const Eigen::Map<const Eigen::VectorXd> heights(hull_planes.heights.data(), normals.rows());
   std::vector<double> most(static_cast<std::size_t>(vertices.rows()));
   Eigen::MatrixXd products;
-  for (Index begin = 0; begin < vertices.rows(); begin += kBlock) {
-    const Index used = std::min(kBlock, vertices.rows() - begin);
+  for (Index begin = 0; begin < vertices.rows(); begin += kVertexBlock) {
+    const Index used = std::min(kVertexBlock, vertices.rows() - begin);
     products.noalias() = normals * vertices.middleRows(begin, used).transpose();
     for (Index k = 0; k < used; ++k) {
       const double gauge = (products.col(k).array() / heights.array()).maxCoeff();
@@ -96,7 +92,7 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
     margin = std::max(margin, (hull.outer_offset(facet) - hull.inner_offset(facet)) *
                                   hull.input_per_length_unit(facet) / all.heights[row]);
   }
-  const Eigen::Map<const Rows> vertices = rows_of(polytope.vertices, planes.rank);
+  const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
   std::vector<double> most = most_distances(vertices, all);
   for (std::size_t vertex = 0; vertex < most.size(); ++vertex)
     most[vertex] += margin * vertices.row(static_cast<Index>(vertex)).norm();

@@ -41,7 +41,7 @@ constexpr std::size_t kPlanesPerTask = 4096;
 constexpr std::size_t kPointsPerTask = 4096;
 
 /// Length of a vector, without overflow; the same on every machine. 1 for the zero vector.
-double length_of(std::span<const double> vector) {
+double length_or_one(std::span<const double> vector) {
   double largest = 0.0;
   for (const double value : vector) largest = std::max(largest, std::fabs(value));
   if (largest == 0.0) return 1.0;
@@ -137,7 +137,7 @@ class Task {
       bounds_[row] = magnitude < kNearOverflow
                          ? static_cast<double>(d + 10) * (kUnitRoundoff * magnitude + kSubnormal)
                          : HUGE_VAL;
-      lengths_[row] = length_of(plane.normal);
+      lengths_[row] = length_or_one(plane.normal);
     }
   }
 
@@ -217,7 +217,8 @@ PlaneScan scan_planes(const PointView& points, const PlaneSource& planes, Doubtf
   points.copy_row(0, first.data());
   for (std::size_t row = 0; row < std::min(planes.count(), kPlanesPerTask); ++row) {
     const CentredPlane plane = planes.plane(row);
-    worst_known.raise(plane_value(plane, first, DoubtfulSign::kExtendedThenExact) / length_of(plane.normal));
+    worst_known.raise(plane_value(plane, first, DoubtfulSign::kExtendedThenExact) /
+                      length_or_one(plane.normal));
   }
 
   const auto slabs = [](std::size_t count, std::size_t size) { return (count + size - 1) / size; };

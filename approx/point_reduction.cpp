@@ -25,7 +25,7 @@ constexpr std::size_t kFirstSample = 2048, kFirstRows = 128;
 /// Points that are located at a time: what membership takes for one block.
 constexpr std::size_t kLocatedAtATime = 512;
 /// A point this far inside the hull is dropped. [ratio] As CertifiedGrowth has it.
-constexpr double kWellInside = 1e-9;
+constexpr double kDroppedInside = 1e-9;
 /// Passes at most, simplices at most, and points for each simplex that make a hull of so many worth growing.
 constexpr int kPasses = 4;
 constexpr std::size_t kMostRows = 250'000, kPointsForARow = 16;
@@ -192,7 +192,7 @@ class Reduction {
     const HullBall ball = find_ball(dimension, coordinates.data(), view.rows, frame.simplex);
     const std::vector<LocatedPoint> located = try_inside(work.complex, coordinates.data(), ball, ids);
     return std::none_of(located.begin(), located.end(),
-                        [](const LocatedPoint& point) { return point.gauge < -kWellInside; });
+                        [](const LocatedPoint& point) { return point.gauge < -kDroppedInside; });
   }
 
   /// The frame and the first simplex, of a sample; false when it spans less than all dimensions.
@@ -263,7 +263,7 @@ class Reduction {
     const std::vector<LocatedPoint> located = try_inside(work_.complex, coordinates_.data(), ball_, ids);
     const auto inside =
         static_cast<std::size_t>(std::count_if(located.begin(), located.end(), [](const LocatedPoint& point) {
-          return point.gauge < -kWellInside;
+          return point.gauge < -kDroppedInside;
         }));
     return inside * kWorthAPass >= ids.size();
   }
@@ -300,7 +300,7 @@ class Reduction {
       map_points(PointView::row_major(rows.data(), ids.size(), dimension), frame_, mapped.data());
       try_inside(work_.complex, coordinates_.data(), ball_, mapped.data(), located);
       for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (located[i].gauge < -kWellInside) {
+        if (located[i].gauge < -kDroppedInside) {
           candidates.drop(ids[i]);
           continue;
         }

@@ -278,12 +278,12 @@ class Measurer {
 };
 
 /// Simplices a vertex from which on the hull of the vertices is tried first.
-constexpr std::size_t kManySimplices = 4;
+constexpr std::size_t kSimplicesOfVertex = 4;
 
 /// Of the hull of the vertices, when that is no larger than the dual hull.
 std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePolytope& polytope) {
   const std::size_t vertices = polytope.vertex_count(rank), simplices = polytope.vertex_of.size();
-  if (rank < 2 || simplices < kManySimplices * vertices) return std::nullopt;
+  if (rank < 2 || simplices < kSimplicesOfVertex * vertices) return std::nullopt;
   HullOptions options;
   options.limits.max_facets = simplices;
   const Hull hull = convex_hull(PointView::row_major(polytope.vertices.data(), vertices, rank), options);

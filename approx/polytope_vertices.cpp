@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/dense_views.h"
+
 namespace ndhull {
 namespace {
 
@@ -23,10 +25,6 @@ constexpr double kSameVertexRoundings = 16.0;
 /// being refined.
 constexpr double kAcceptedRoundings = 4.0;
 constexpr int kRefinements = 3;
-
-Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
-  return {values.data(), static_cast<Index>(values.size())};
-}
 
 class VertexPlacer {
  public:

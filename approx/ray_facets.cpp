@@ -11,20 +11,20 @@
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
 #include "approx/orthonormal.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
 namespace {
 
 using Index = Eigen::Index;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Simplices of a hull within a plane after which its area is that of a part. Some seconds in 15-d.
 constexpr std::uint64_t kMaxSimplicesInPlane = 1'000'000;
 /// Ridges that are walked over, of a facet that has more.
 constexpr std::size_t kMaxRidges = 1024;
 
-Rows rows_of(const FramePoints& points, const std::vector<std::uint32_t>& ids) {
-  Rows rows(static_cast<Index>(ids.size()), static_cast<Index>(points.rank));
+RowMatrix rows_of(const FramePoints& points, const std::vector<std::uint32_t>& ids) {
+  RowMatrix rows(static_cast<Index>(ids.size()), static_cast<Index>(points.rank));
   for (std::size_t row = 0; row < ids.size(); ++row)
     rows.row(static_cast<Index>(row)) = points.point(ids[row]);
   return rows;
@@ -42,7 +42,7 @@ FacetGeometry::FacetGeometry(const RayShooter& shooter)
     : shooter_(shooter), volume_scale_(volume_scale(shooter.frame())) {
   const Frame& frame = shooter.frame();
   const auto rank = static_cast<Index>(frame.rank);
-  const Rows identity = Rows::Identity(rank, rank);
+  const RowMatrix identity = RowMatrix::Identity(rank, rank);
   std::vector<double> lengths(frame.rank);
   to_input_.resize(rank, static_cast<Index>(frame.dimension));
   map_normals(frame, identity.data(), frame.rank, to_input_.data(), lengths.data());
@@ -55,8 +55,8 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), rank);
   // The first column of Q is along the normal, the others span the plane.
   const Eigen::MatrixXd axes = orthonormal_columns(plane, rank).rightCols(rank - 1);
-  const Rows all = rows_of(points, facet.points);
-  const Rows within = (all.rowwise() - all.row(0)) * axes;
+  const RowMatrix all = rows_of(points, facet.points);
+  const RowMatrix within = (all.rowwise() - all.row(0)) * axes;
   InPlane result;
   result.coordinates.assign(within.data(), within.data() + within.size());
   HullOptions options;
@@ -73,9 +73,9 @@ double FacetGeometry::area_per_determinant(const std::vector<double>& plane) con
 }
 
 std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& points) const {
-  const Rows rows = rows_of(shooter_.points(), points);
+  const RowMatrix rows = rows_of(shooter_.points(), points);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.rows());
-  const Eigen::ColPivHouseholderQR<Rows> factors(rows);
+  const Eigen::ColPivHouseholderQR<RowMatrix> factors(rows);
   Eigen::VectorXd plane = factors.solve(ones);
   plane += factors.solve(ones - rows * plane);  // one step of refinement
   return {plane.data(), plane.data() + plane.size()};
@@ -90,7 +90,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   facet.vertices = on_plane;
   facet.plane = fit_plane(on_plane);
   const double simplex_determinant =
-      std::abs(Eigen::PartialPivLU<Rows>(rows_of(points, basis)).determinant());
+      std::abs(Eigen::PartialPivLU<RowMatrix>(rows_of(points, basis)).determinant());
   facet.area = simplex_determinant * area_per_determinant(facet.plane);
   if (on_plane.size() == rank) return facet;
   if (rank - 1 > kMaxRank) {
@@ -140,7 +140,7 @@ std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
     // The largest simplex of the ridge, and the point furthest from it.
     double largest = -1.0;
     for (const SimplexId simplex : hull.simplices_of(ridge)) {
-      Rows edges(static_cast<Index>(rank) - 2, static_cast<Index>(rank) - 1);
+      RowMatrix edges(static_cast<Index>(rank) - 2, static_cast<Index>(rank) - 1);
       const auto vertices = hull.simplices.vertices(simplex);
       const auto coordinates_of = [&](PointId id) {
         return Eigen::Map<const Eigen::RowVectorXd>(within.coordinates.data() + id.value * (rank - 1),

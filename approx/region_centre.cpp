@@ -5,6 +5,7 @@
 #include "approx/even_normals.h"
 #include "approx/halfspace_region.h"
 #include "core/column_table.h"
+#include "core/dense_views.h"
 
 namespace ndhull {
 namespace {
@@ -12,14 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::span<const double> as_span(const VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
-Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
-  return {values.data(), static_cast<Index>(values.size())};
-}
 
 /// Support values of planes about the origin, each program started from the last one's basis.
 class SupportPrograms {

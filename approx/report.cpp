@@ -9,33 +9,19 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "approx/facet_selection.h"
 #include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
+#include "approx/report_json.h"
 #include "approx/verify.h"
 
 namespace ndhull {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kIndent = 2;
 /// [bytes] Text that is gathered before the sink gets it.
 constexpr std::size_t kPieceSize = std::size_t{1} << 16;
-
-/// null for 0, which the library's limits use for none.
-Json limit(std::uint64_t value) { return value == 0 ? Json(nullptr) : Json(value); }
-Json limit(double value) { return value == 0.0 ? Json(nullptr) : Json(value); }
-
-struct OptionToJson {
-  Json operator()(std::monostate) const { return nullptr; }
-  template <class T>
-  Json operator()(const T& value) const {
-    return value;
-  }
-};
 
 Json length(const Length& asked) {
   if (!asked.is_set()) return nullptr;

@@ -7,11 +7,10 @@
 #include <queue>
 
 #include "core/blocks.h"
+#include "core/ids.h"
 
 namespace ndhull {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
 bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
 

@@ -10,19 +10,18 @@
 #include <vector>
 
 #include "approx/boundedness.h"
+#include "approx/plane_candidates.h"
 #include "approx/volume_rays.h"
+#include "core/ids.h"
 
 namespace ndhull {
 namespace {
 
 using Eigen::Index;
 
-constexpr std::uint32_t kNone = FacetId::kNone;
-constexpr std::size_t kMostCandidates = 20'000;
-
 /// The exact facets: their dual planes and the volumes of the cones below them.
 struct ExactFacets {
-  PlaneRows planes;
+  RowMatrix planes;
   std::vector<double> volumes;
 };
 
@@ -55,7 +54,7 @@ ExactFacets list_facets(const SimplicialComplex& complex, std::span<const double
 }
 
 /// Rows of `planes` to choose from, the largest facets first in coordinates where planes are spread evenly.
-std::vector<std::uint32_t> candidates_of(const ExactFacets& facets, const PlaneRows& even) {
+std::vector<std::uint32_t> candidates_of(const ExactFacets& facets, const RowMatrix& even) {
   std::vector<double> areas(facets.volumes.size());
   for (std::size_t row = 0; row < areas.size(); ++row)
     areas[row] = facets.volumes[row] * even.row(static_cast<Index>(row)).norm();
@@ -67,26 +66,26 @@ std::vector<std::uint32_t> candidates_of(const ExactFacets& facets, const PlaneR
   return ids;
 }
 
-PlaneRows rows_of(const PlaneRows& all, std::span<const std::uint32_t> ids) {
-  PlaneRows rows(static_cast<Index>(ids.size()), all.cols());
+RowMatrix rows_of(const RowMatrix& all, std::span<const std::uint32_t> ids) {
+  RowMatrix rows(static_cast<Index>(ids.size()), all.cols());
   for (std::size_t k = 0; k < ids.size(); ++k) rows.row(static_cast<Index>(k)) = all.row(ids[k]);
   return rows;
 }
 
-std::span<const double> values_of(const PlaneRows& rows) {
+std::span<const double> values_of(const RowMatrix& rows) {
   return {rows.data(), static_cast<std::size_t>(rows.size())};
 }
 
 /// Chosen rows of facets.planes.
-PlaneRows choose_planes(const ExactFacets& facets, std::uint64_t count) {
-  const PlaneRows even = evenly_spread(facets.planes);
+RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count) {
+  const RowMatrix even = evenly_spread(facets.planes);
   std::vector<std::uint32_t> ids = candidates_of(facets, even);
   if (ids.size() > kMostCandidates) {
     const std::span<const std::uint32_t> few(ids.data(), kMostCandidates);
     if (find_open_direction(values_of(rows_of(even, few)), static_cast<std::size_t>(even.cols())).bounded)
       ids.resize(kMostCandidates);
   }
-  const PlaneRows candidates = rows_of(even, ids);
+  const RowMatrix candidates = rows_of(even, ids);
   const std::vector<std::uint32_t> start =
       complete_to_bounded(values_of(candidates), static_cast<std::size_t>(even.cols()), {});
   std::vector<std::uint32_t> chosen = choose_by_rays(candidates, start, count);
@@ -97,10 +96,10 @@ PlaneRows choose_planes(const ExactFacets& facets, std::uint64_t count) {
 
 /// For each simplex the plane below which its lowest vertex is least deep.
 std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, const double* points,
-                                            const PlaneRows& planes,
+                                            const RowMatrix& planes,
                                             std::span<const double> gradient_factor) {
   const Index rank = planes.cols();
-  const Eigen::Map<const PlaneRows> factor(gradient_factor.data(), rank, rank);
+  const Eigen::Map<const RowMatrix> factor(gradient_factor.data(), rank, rank);
   // Distances in length units: a gauge over the length of its gradient.
   const Eigen::VectorXd lengths = (planes * factor.transpose()).rowwise().norm();
   std::vector<std::uint32_t> plane_of(complex.row_count);
@@ -135,7 +134,7 @@ std::optional<FacetClusters> cover_for_volume(const SimplicialComplex& complex, 
                                               std::span<const double> gradient_factor) {
   const ExactFacets facets = list_facets(complex, determinants, exact);
   if (facets.volumes.size() <= count) return std::nullopt;
-  const PlaneRows planes = choose_planes(facets, count);
+  const RowMatrix planes = choose_planes(facets, count);
   FacetClusters clusters;
   clusters.cluster_of = assign_simplices(complex, points, planes, gradient_factor);
   // A plane that rounding makes the same as another may get no simplex: the other stands for both.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ids.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
@@ -11,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kRaySeed = 1;
 constexpr std::size_t kRaysForPlane = 60;
 constexpr std::size_t kFewestRays = 4'000, kMostRays = 60'000;
 /// Planes tried for an exchange, for each plane wanted. On spheres one in four is exchanged, most of them
@@ -20,14 +21,12 @@ constexpr std::size_t kTrials = 2;
 /// An exchange must gain this share of what it costs, or rounding could go on for ever.
 constexpr double kLeastGain = 1e-6;
 /// Planes times rays whose products are held at once.
-constexpr Index kBlock = 256;
-
-constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+constexpr Index kRayBlock = 256;
 
 /// For each ray the chosen plane that it meets first, and the second one.
 class RayChoice {
  public:
-  RayChoice(const PlaneRows& planes, std::size_t ray_count)
+  RayChoice(const RowMatrix& planes, std::size_t ray_count)
       : planes_(planes),
         directions_(planes.cols(), static_cast<Index>(ray_count)),
         first_(ray_count, 0.0),
@@ -35,7 +34,7 @@ class RayChoice {
         first_plane_(ray_count, kNone),
         second_plane_(ray_count, kNone),
         is_chosen_(static_cast<std::size_t>(planes.rows()), false) {
-    PortableRandom random(kSeed);
+    PortableRandom random(kRaySeed);
     for (Index ray = 0; ray < directions_.cols(); ++ray) {
       for (Index k = 0; k < directions_.rows(); ++k) directions_(k, ray) = random.normal();
       directions_.col(ray).normalize();
@@ -115,8 +114,8 @@ class RayChoice {
 
   void update_gains(const std::vector<RayChange>& changes) {
     Eigen::MatrixXd directions, products;
-    for (std::size_t begin = 0; begin < changes.size(); begin += kBlock) {
-      const auto used = static_cast<Index>(std::min<std::size_t>(kBlock, changes.size() - begin));
+    for (std::size_t begin = 0; begin < changes.size(); begin += kRayBlock) {
+      const auto used = static_cast<Index>(std::min<std::size_t>(kRayBlock, changes.size() - begin));
       directions.resize(planes_.cols(), used);
       for (Index k = 0; k < used; ++k)
         directions.col(k) =
@@ -152,7 +151,7 @@ class RayChoice {
     }
   }
 
-  const PlaneRows& planes_;
+  const RowMatrix& planes_;
   Eigen::MatrixXd directions_;  // rank x rays
   Eigen::RowVectorXd slope_;    // of one plane along each ray
   std::vector<double> first_, second_;
@@ -187,14 +186,14 @@ void exchange(RayChoice& choice, const std::vector<std::uint32_t>& fixed, std::s
 
 }  // namespace
 
-PlaneRows evenly_spread(PlaneRows planes) {
+RowMatrix evenly_spread(RowMatrix planes) {
   planes = (planes.array().rowwise() / planes.cwiseAbs().colwise().maxCoeff().array()).eval();
   const Eigen::MatrixXd spread = planes.transpose() * planes / static_cast<double>(planes.rows());
   const Eigen::MatrixXd lower = Eigen::LLT<Eigen::MatrixXd>(spread).matrixL();
   return lower.triangularView<Eigen::Lower>().solve(planes.transpose()).transpose();
 }
 
-std::vector<std::uint32_t> choose_by_rays(const PlaneRows& planes, const std::vector<std::uint32_t>& start,
+std::vector<std::uint32_t> choose_by_rays(const RowMatrix& planes, const std::vector<std::uint32_t>& start,
                                           std::size_t count) {
   const auto plane_count = static_cast<std::size_t>(planes.rows());
   RayChoice choice(planes, std::clamp(kRaysForPlane * count, kFewestRays, kMostRays));

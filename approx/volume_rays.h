@@ -2,17 +2,16 @@
 // polytope is the hull itself, and only what lies between the two is worth looking at.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
-namespace ndhull {
+#include "core/dense_views.h"
 
-using PlaneRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+namespace ndhull {
 
 /// The planes a . y <= 1, rows of `planes`, in coordinates in which the rows are spread evenly: their second
 /// moments are the identity. Ratios of volumes are the same in all coordinates. The rows span the space.
-PlaneRows evenly_spread(PlaneRows planes);
+RowMatrix evenly_spread(RowMatrix planes);
 
 /// Chooses `count` of the planes a . y <= 1, rows of `planes`, `start` among them where it can be.
 ///
@@ -25,7 +24,7 @@ PlaneRows evenly_spread(PlaneRows planes);
 ///          are uniform.
 /// Result   ascending; the same on every machine and for any threads.
 /// Cost     planes x rays (60 for each plane wanted, 4,000 to 60,000) x rank multiplications a few times.
-std::vector<std::uint32_t> choose_by_rays(const PlaneRows& planes, const std::vector<std::uint32_t>& start,
+std::vector<std::uint32_t> choose_by_rays(const RowMatrix& planes, const std::vector<std::uint32_t>& start,
                                           std::size_t count);
 
 }  // namespace ndhull

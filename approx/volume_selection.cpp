@@ -10,6 +10,7 @@
 
 #include "approx/boundedness.h"
 #include "approx/outer_volume.h"
+#include "approx/plane_candidates.h"
 #include "approx/volume_rays.h"
 #include "core/error.h"
 #include "core/portable_random.h"
@@ -18,24 +19,20 @@ namespace ndhull {
 namespace {
 
 using Eigen::Index;
-using Rows = PlaneRows;
 using Ids = std::vector<std::uint32_t>;
 
-constexpr std::size_t kMostCandidates = 20'000;
-/// With more planes nearly all of the polytope is the hull: points spread over it see too little.
-constexpr std::size_t kMostExchanged = 100;
 constexpr Index kExchangePoints = 1000;
 /// Vertices of a polytope whose volume is computed to compare choices.
 constexpr std::uint64_t kMostVertices = 100'000;
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kPointSeed = 1;
 
-Rows rows_of(const Rows& all, const Ids& ids) {
-  Rows rows(static_cast<Index>(ids.size()), all.cols());
+RowMatrix rows_of(const RowMatrix& all, const Ids& ids) {
+  RowMatrix rows(static_cast<Index>(ids.size()), all.cols());
   for (std::size_t k = 0; k < ids.size(); ++k) rows.row(static_cast<Index>(k)) = all.row(ids[k]);
   return rows;
 }
 
-bool is_bounded(const Rows& planes) {
+bool is_bounded(const RowMatrix& planes) {
   const std::span<const double> normals(planes.data(), static_cast<std::size_t>(planes.size()));
   return find_open_direction(normals, static_cast<std::size_t>(planes.cols())).bounded;
 }
@@ -43,17 +40,17 @@ bool is_bounded(const Rows& planes) {
 /// Points spread evenly over {y : a . y <= 1 for the rows a of some planes}.
 class EvenPoints {
  public:
-  EvenPoints(Index count, Index rank) : points_(Rows::Zero(count, rank)) {}
+  EvenPoints(Index count, Index rank) : points_(RowMatrix::Zero(count, rank)) {}
 
-  const Rows& points() const { return points_; }
+  const RowMatrix& points() const { return points_; }
 
   /// Puts all of them anew, each from where it is: into the same region or a larger one.
-  void spread(const Rows& planes) {
+  void spread(const RowMatrix& planes) {
     for (Index row = 0; row < points_.rows(); ++row) walk(planes, points_.row(row));
   }
 
   /// Replaces the points above the last of the planes, starting from others.
-  void cut(const Rows& planes) {
+  void cut(const RowMatrix& planes) {
     const Eigen::VectorXd above = points_ * planes.row(planes.rows() - 1).transpose();
     std::vector<Index> kept;
     for (Index row = 0; row < points_.rows(); ++row) {
@@ -72,7 +69,7 @@ class EvenPoints {
 
  private:
   /// Steps along random directions to a place that is uniform between the planes.
-  void walk(const Rows& planes, Eigen::Ref<Eigen::RowVectorXd> point) {
+  void walk(const RowMatrix& planes, Eigen::Ref<Eigen::RowVectorXd> point) {
     const Index rank = point.size();
     Eigen::VectorXd room = 1.0 - (planes * point.transpose()).array();
     Eigen::VectorXd direction(rank), slope;
@@ -92,8 +89,8 @@ class EvenPoints {
     }
   }
 
-  Rows points_;
-  PortableRandom random_{kSeed};
+  RowMatrix points_;
+  PortableRandom random_{kPointSeed};
 };
 
 class VolumeChoice {
@@ -156,19 +153,19 @@ class VolumeChoice {
 
   /// The candidates as rows a with a . y <= 1, in coordinates y about the interior point in which the rows
   /// are spread evenly: ratios of volumes are the same in all coordinates.
-  Rows even_planes() const {
+  RowMatrix even_planes() const {
     std::vector<FacetId> ids;
     for (const std::uint32_t id : facets_) ids.push_back(FacetId{id});
     const PlanesAboutOrigin planes = outer_planes_about_interior(hull_, ids);
     const auto rank = static_cast<Index>(planes.rank);
-    Rows rows = Eigen::Map<const Rows>(planes.normals.data(), static_cast<Index>(ids.size()), rank);
+    RowMatrix rows = Eigen::Map<const RowMatrix>(planes.normals.data(), static_cast<Index>(ids.size()), rank);
     for (Index row = 0; row < rows.rows(); ++row) {
       rows.row(row) /= planes.heights[static_cast<std::size_t>(row)];
     }
     return evenly_spread(rows);
   }
 
-  static Index points_above(const Rows& points, const Eigen::RowVectorXd& plane) {
+  static Index points_above(const RowMatrix& points, const Eigen::RowVectorXd& plane) {
     return ((points * plane.transpose()).array() > 1.0).count();
   }
 
@@ -213,7 +210,7 @@ class VolumeChoice {
     for (std::size_t place = 0; place < chosen.size(); ++place) {
       Ids others = chosen;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
-      const Rows planes = rows_of(planes_, others);
+      const RowMatrix planes = rows_of(planes_, others);
       if (!is_bounded(planes)) continue;
       EvenPoints even(kExchangePoints, planes_.cols());
       even.spread(planes);
@@ -233,8 +230,8 @@ class VolumeChoice {
 
   const Hull& hull_;
   std::size_t count_;
-  Ids facets_;   // candidates: facets by area, largest first
-  Rows planes_;  // one a candidate
+  Ids facets_;        // candidates: facets by area, largest first
+  RowMatrix planes_;  // one a candidate
 };
 
 }  // namespace

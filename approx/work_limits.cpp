@@ -4,14 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/stopwatch.h"
+
 namespace ndhull {
 namespace {
-
-using Clock = WorkLimits::Clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Shares of the seconds that growth spent for each simplex it made, all but those for points. Sphere points
 // in 8-d and 10-d, with 140 to 300 vertices: 0.3 to 0.5 of it for each simplex that stays, and one product of

@@ -153,11 +153,11 @@ std::vector<ApproximateGroup> approximate_groups(const std::vector<RunRecord>& r
 }
 
 const Repeats& ApproximateGroup::target(const std::string& wanted) const {
-  static const Repeats kNone;
+  static const Repeats kNothing;
   for (const auto& [text, repeats] : targets) {
     if (text == wanted) return repeats;
   }
-  return kNone;
+  return kNothing;
 }
 
 double width_of_all_facets(const HullRun& run) { return run.max_outer_offset - run.min_inner_offset; }

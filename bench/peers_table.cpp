@@ -17,9 +17,9 @@ struct Peers {
   std::map<std::string, Repeats> engines;
 
   const Repeats& runs_of(const std::string& engine) const {
-    static const Repeats kNone;
+    static const Repeats kNothing;
     const auto found = engines.find(engine);
-    return found == engines.end() ? kNone : found->second;
+    return found == engines.end() ? kNothing : found->second;
   }
   bool has_both(const std::string& engine) const {
     return !runs_of("ndhull").is_empty() && !runs_of(engine).is_empty();

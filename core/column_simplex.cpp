@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dense_views.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -22,10 +23,6 @@ constexpr double kValueRoundoff = 1e-12;
 constexpr double kTrifleSlack = 1e-3;
 /// A factorisation with a smaller reciprocal condition has no digits left.
 constexpr double kSingular = 1e-14;
-
-std::span<const double> as_span(const Eigen::VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
 
 /// splitmix64 (Steele, Lea, Flood. Fast splittable pseudorandom number generators. OOPSLA 2014).
 double next_unit(std::uint64_t& state) {

@@ -63,7 +63,7 @@ double column_scale(double low, double high) {
 
 /// Of more points than this some are enough for a simplex, if no dual vertex of it times any point is longer
 /// than that.
-constexpr std::size_t kManyPoints = 1 << 15, kSample = 1 << 12;
+constexpr std::size_t kManyPoints = 1 << 15, kFrameSample = 1 << 12;
 constexpr double kSampleShape = 200.0;
 
 /// Largest product of a dual vertex of the simplex with a point of it, or of length `reach` if that is more.
@@ -195,7 +195,7 @@ Frame fit_frame(const PointView& points) {
     return worst_shape(vertices, 2.0 * std::sqrt(static_cast<double>(dimension))) <= kSampleShape;
   };
   GreedySimplex simplex;
-  if (points.rows > kManyPoints) simplex = simplex_of(points.rows / kSample);
+  if (points.rows > kManyPoints) simplex = simplex_of(points.rows / kFrameSample);
   if (!is_good(simplex)) simplex = simplex_of(1);
   frame.simplex = simplex.points;
   frame.rank = simplex.points.size() - 1;

@@ -7,10 +7,13 @@
 
 namespace ndhull {
 
+/// A number among ids and rows that stands for none.
+inline constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+
 /// Index into one kind of table. Kinds never mix; a default Id is "none".
 template <class Tag>
 struct Id {
-  static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+  static constexpr std::uint32_t kNone = ndhull::kNone;
   std::uint32_t value = kNone;
 
   constexpr bool valid() const { return value != kNone; }

@@ -16,6 +16,7 @@
 #include "approx/report.h"
 #include "core/error.h"
 #include "core/plane_value.h"
+#include "core/stopwatch.h"
 #include "tools/byte_count.h"
 #include "tools/exit_code.h"
 #include "tools/file_bytes.h"
@@ -27,7 +28,6 @@
 #include "tools/plane_writer.h"
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
-#include "tools/stopwatch.h"
 #include "tools/summary_text.h"
 
 namespace ndhull {

@@ -12,6 +12,7 @@
 #include "approx/outer_volume.h"
 #include "approx/report.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "tools/exit_code.h"
 #include "tools/hull_input.h"
 #include "tools/hull_summary.h"
@@ -24,7 +25,6 @@
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
 #include "tools/selection_options.h"
-#include "tools/stopwatch.h"
 #include "tools/trade_curve.h"
 
 namespace ndhull {

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "tools/halfspace_reader.h"
 #include "tools/interrupt.h"
 #include "tools/intersection_writer.h"
 #include "tools/output_file.h"
 #include "tools/point_writer.h"
 #include "tools/progress_line.h"
-#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {

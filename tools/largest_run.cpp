@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/plane_value.h"
+#include "core/stopwatch.h"
 #include "tools/exit_code.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
@@ -21,7 +22,6 @@
 #include "tools/plane_writer.h"
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
-#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {

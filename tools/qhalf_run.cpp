@@ -9,6 +9,7 @@
 #include "approx/contains.h"
 #include "approx/halfspace_intersection.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "tools/cdd_reader.h"
 #include "tools/exit_code.h"
 #include "tools/halfspace_reader.h"
@@ -17,7 +18,6 @@
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
 #include "tools/qhull_run.h"
-#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {

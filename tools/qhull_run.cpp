@@ -10,6 +10,7 @@
 #include "approx/joggle.h"
 #include "approx/verify.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "tools/attached_points.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
@@ -20,7 +21,6 @@
 #include "tools/qhull_scaling.h"
 #include "tools/qhull_selection.h"
 #include "tools/qhull_summary.h"
-#include "tools/stopwatch.h"
 
 namespace ndhull {
 namespace {

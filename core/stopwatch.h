@@ -1,4 +1,4 @@
-// Wall time of the program's steps.
+// Wall time of steps.
 #pragma once
 
 #include <chrono>
