@@ -10,17 +10,16 @@
 #include "approx/plane_check.h"
 #include "approx/written_planes.h"
 #include "core/error.h"
+#include "tools/exit_code.h"
 
 namespace ndhull {
 namespace {
 
-constexpr int kInternalError = 3;
-
 /// What this process alone cannot go on after: the others wait for it.
 [[noreturn]] void end_all(const ProcessGroup& group, const char* what) {
   fmt::print(stderr, "ndhull: internal: {}, in process {} of {}\n", what, group.rank(), group.size());
-  group.end_all(kInternalError);
-  std::_Exit(kInternalError);
+  group.end_all(kInternalErrorExitCode);
+  std::_Exit(kInternalErrorExitCode);
 }
 
 template <class Call>

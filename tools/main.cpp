@@ -1,110 +1,21 @@
-// The program ndhull: one command a file; this one turns words into calls and exceptions into exit codes.
-#include <fmt/format.h>
+// The program ndhull.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <csignal>
-#include <exception>
-#include <new>
-#include <string>
-#include <vector>
 
-#include "approx/report.h"
-#include "core/error.h"
-#include "tools/contains_command.h"
-#include "tools/extreme_command.h"
-#include "tools/hull_command.h"
-#include "tools/intersect_command.h"
-#include "tools/largest_command.h"
-#include "tools/point_set_commands.h"
-#include "tools/qhull_command.h"
-#include "tools/verify_command.h"
-#include "tools/view_command.h"
+#include "tools/exit_code.h"
+#include "tools/program.h"
 
 namespace {
 
-constexpr int kBadInput = 1;
-constexpr int kInternalError = 3;
-
-int fail(int exit_code, std::string_view code, std::string message) {
-  // A message is one line, whatever a file name or an argument holds.
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(stderr, "ndhull: {}: {}\n", code, message);
-  return exit_code;
-}
-
 /// NDHULL_CHECK prints the failed condition and aborts: an internal error like any other.
-extern "C" void end_after_abort(int) { ::_exit(kInternalError); }
-
-/// CLI11 says of an unknown command only that there is none.
-void check_command(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (!arguments.empty() && arguments.front().starts_with("-")) return;
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    if (!arguments.empty() && command->get_name() == arguments.front()) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  const std::string found = arguments.empty() ? "no command" : "\"" + arguments.front() + "\"";
-  throw ndhull::Error(ndhull::ErrorCode::kUsage,
-                      fmt::format("found {}, expected one of {}; see ndhull --help", found, names));
-}
-
-std::string help_of(const CLI::App& app) {
-  const std::vector<CLI::App*> chosen = app.get_subcommands();
-  return chosen.empty() ? "ndhull --help" : "ndhull " + chosen.front()->get_name() + " --help";
-}
-
-std::string describe(const CLI::ParseError& error, const CLI::App& app) {
-  const auto* const extra = dynamic_cast<const CLI::ExtrasError*>(&error);
-  const std::vector<std::string> left = app.remaining(true);
-  if (extra == nullptr || left.empty()) return error.what();
-  return fmt::format("found \"{}\", expected an option or argument of this command", left.front());
-}
-
-int run(const std::vector<std::string>& arguments) {
-  int exit_code = 0;
-  CLI::App app{"Convex hulls in five and more dimensions, with a proven error bound on every facet.",
-               "ndhull"};
-  app.set_version_flag("--version", "ndhull " + std::string(ndhull::version()));
-  app.require_subcommand(1);
-  app.footer("Each command has its own --help with an example.");
-  // One line a command; the order is that of --help.
-  ndhull::add_hull_command(app, exit_code);
-  ndhull::add_intersect_command(app, exit_code);
-  ndhull::add_contains_command(app);
-  ndhull::add_largest_command(app, exit_code);
-  ndhull::add_extreme_command(app, exit_code);
-  ndhull::add_generate_command(app);
-  ndhull::add_rbox_command(app);
-  ndhull::add_qhull_command(app, exit_code);
-  ndhull::add_qhalf_command(app, exit_code);
-  ndhull::add_verify_command(app, exit_code);
-  ndhull::add_view_command(app, exit_code);
-  try {
-    check_command(app, arguments);
-    std::vector<std::string> words = ndhull::join_verify_mode(arguments);
-    std::reverse(words.begin(), words.end());  // as CLI11 wants them
-    app.parse(std::move(words));
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
-  } catch (const CLI::ParseError& error) {
-    return fail(kBadInput, "usage", fmt::format("{}; see {}", describe(error, app), help_of(app)));
-  } catch (const ndhull::Error& error) {
-    return fail(kBadInput, to_string(error.code()), error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kInternalError, "internal", "out of memory; set --max-memory, or take a machine with more");
-  } catch (const std::exception& error) {
-    return fail(kInternalError, "internal", error.what());
-  }
-  return exit_code;
-}
+extern "C" void end_after_abort(int) { ::_exit(ndhull::kInternalErrorExitCode); }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGABRT, end_after_abort);
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // a file that may not grow is an error of the write, said like that of a full disk
-  return run({argv + 1, argv + argc});
+  // A file that may not grow is an error of the write, said like that of a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return ndhull::run_program({argv + 1, argv + argc});
 }
