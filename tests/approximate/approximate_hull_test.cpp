@@ -55,18 +55,18 @@ void expect_approximate_laws(const Hull& hull, const PointView& points) {
   EXPECT_TRUE(find_open_direction(normals, hull.dimension, hull.subspace_equations).bounded);
 }
 
-struct Shape {
+struct FamilySize {
   PointFamily family;
   std::size_t n, d;
 };
-const Shape kShapes[] = {{PointFamily::kSphere, 400, 3},   {PointFamily::kSphere, 300, 5},
-                         {PointFamily::kBall, 500, 4},     {PointFamily::kGaussian, 3000, 5},
-                         {PointFamily::kGaussian, 200, 7}, {PointFamily::kCube, 400, 6},
-                         {PointFamily::kClusters, 500, 4}, {PointFamily::kEllipsoid, 300, 5},
-                         {PointFamily::kLens, 200, 4},     {PointFamily::kSphere, 60, 8}};
+const FamilySize kShapes[] = {{PointFamily::kSphere, 400, 3},   {PointFamily::kSphere, 300, 5},
+                              {PointFamily::kBall, 500, 4},     {PointFamily::kGaussian, 3000, 5},
+                              {PointFamily::kGaussian, 200, 7}, {PointFamily::kCube, 400, 6},
+                              {PointFamily::kClusters, 500, 4}, {PointFamily::kEllipsoid, 300, 5},
+                              {PointFamily::kLens, 200, 4},     {PointFamily::kSphere, 60, 8}};
 
 TEST(ApproximateHullLaw, WidthIsMet) {
-  for (const Shape& shape : kShapes) {
+  for (const FamilySize& shape : kShapes) {
     for (const double percent : {1.0, 5.0, 20.0}) {
       const PointSet set = family_points(shape.family, shape.n, shape.d, 20240601);
       SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
@@ -81,7 +81,7 @@ TEST(ApproximateHullLaw, WidthIsMet) {
 }
 
 TEST(ApproximateHullLaw, NumberOfFacetsIsMet) {
-  for (const Shape& shape : kShapes) {
+  for (const FamilySize& shape : kShapes) {
     for (const std::uint64_t count : {shape.d + 1, 2 * shape.d, 40 * shape.d}) {
       const PointSet set = family_points(shape.family, shape.n, shape.d, 20240602);
       SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
@@ -276,7 +276,7 @@ TEST(ApproximateHullOracle, AreaOfAMergedFacetIsItsProjection) {
 }
 
 TEST(OutsideWidthLaw, PointsLeftOutAreLessOutside) {
-  for (const Shape& shape : kShapes) {
+  for (const FamilySize& shape : kShapes) {
     const PointSet set = family_points(shape.family, shape.n, shape.d, 99);
     SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d");
     const double width = 0.05 * extent_of(set);

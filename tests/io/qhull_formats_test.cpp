@@ -34,7 +34,7 @@ Lines printed(std::string_view format, const QhullPrint& print) {
 std::size_t index(double number) { return static_cast<std::size_t>(number); }
 
 /// All corners of the unit cube.
-std::vector<double> cube(std::size_t dimension) {
+std::vector<double> cube_corners(std::size_t dimension) {
   std::vector<double> values;
   for (std::size_t corner = 0; corner < std::size_t{1} << dimension; ++corner) {
     for (std::size_t k = 0; k < dimension; ++k) values.push_back(static_cast<double>(corner >> k & 1U));
@@ -132,7 +132,7 @@ TEST(QhullFormatsLaw, TheNeighbourIsOppositeTheVertexInTheSamePlace) {
 }
 
 TEST(QhullFormatsExample, ACubeHasQuadrilateralsInCyclicOrder) {
-  const Case c(cube(3), 3);
+  const Case c(cube_corners(3), 3);
   const Lines off = printed("o", c.print);
   EXPECT_EQ(off[0], (std::vector<double>{3}));
   EXPECT_EQ(off[1], (std::vector<double>{8, 6, 12}));
@@ -152,7 +152,7 @@ TEST(QhullFormatsExample, ACubeHasQuadrilateralsInCyclicOrder) {
 }
 
 TEST(QhullFormatsExample, FacetsOfAFourDimensionalCubeAreConesOverTheirRidges) {
-  const Case c(cube(4), 4);
+  const Case c(cube_corners(4), 4);
   ASSERT_EQ(c.hull.facet_count(), 8U);
   const Lines cones = printed("i", c.print);
   const Lines centrums = printed("FC", c.print);
