@@ -1,7 +1,5 @@
 #include "core/point_tree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -53,7 +51,7 @@ class NeighbourOrder {
       split(low);
       split(high);
     } else {
-      tbb::parallel_invoke([&] { split(low); }, [&] { split(high); });
+      for_each_block(2, 1, [&](std::size_t half_of, std::size_t) { split(half_of == 0 ? low : high); });
     }
   }
 

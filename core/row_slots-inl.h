@@ -35,7 +35,11 @@ HWY_INLINE std::uint32_t slots_where(const std::uint32_t* row, const Compare& co
     const std::size_t begin = part > 0 && part + lanes > D ? D - lanes : part;
     std::uint8_t bytes[8];
     hn::StoreMaskBits(tag, compare(hn::LoadU(tag, row + begin)), bytes);
-    bits |= std::uint32_t{bytes[0]} << begin;
+    std::uint32_t of_part = bytes[0];
+    // Not to be kept in a mask register: gcc 12 saves that as one byte and reads four back, where it has to
+    // save it across a call.
+    asm("" : "+r"(of_part));
+    bits |= of_part << begin;
   }
   return bits;
 }
