@@ -21,7 +21,8 @@ namespace ndhull {
 ///           are taken by area, largest first: the largest simplex of a flat has its best plane. A facet
 ///           grows from its seed over neighbours whose vertices are within the tolerance of the seed's plane,
 ///           so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
-///           squares). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
+///           squares). Where most simplices have a shifted vertex, flats are found a plane at a time first
+///           (flat_facets.h). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Shapes    is_shifted: one a point; determinants: one a simplex.
 /// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
 /// Cost      O(s rank^2) for s simplices, plus the fits.

@@ -51,7 +51,7 @@ class NeighbourOrder {
       split(low);
       split(high);
     } else {
-      for_each_block(2, 1, [&](std::size_t half_of, std::size_t) { split(half_of == 0 ? low : high); });
+      for_each_block(2, 1, [&](std::size_t side, std::size_t) { split(side == 0 ? low : high); });
     }
   }
 

@@ -70,7 +70,7 @@ std::vector<RowMove> compact(SimplicialComplex& complex);
 /// Puts the vertices and neighbours of row old_of_new[r] into row r, for all live rows of a compacted
 /// complex, and renames the neighbours. The first `planes_kept` planes stay where they are; the memory of the
 /// others serves to copy rows through, where it is enough, and is given back. Rows that stay cost one
-/// comparison; the others are copied twice.
+/// comparison; the others are copied twice at most.
 void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new,
                       std::size_t planes_kept);
 

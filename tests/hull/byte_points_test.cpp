@@ -50,18 +50,9 @@ void expect_bytes_find_all(const DirectionCloud& cloud) {
 }
 
 TEST(BytePointsLaw, TheResultIsThatOfAllProductsDigitForDigit) {
-  for (const CloudShape shape : {CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere,
-                                 CloudShape::kFlat, CloudShape::kCubeCorners}) {
-    for (const std::size_t dimension : {1u, 2u, 3u, 5u, 8u, 11u, 16u}) {
-      for (const std::size_t count : {1u, 2u, 31u, 33u, 257u, 5000u}) {
-        for (const double scale : {1.0, 1e-3, 1e3}) {
-          SCOPED_TRACE(std::to_string(static_cast<int>(shape)) + ", " + std::to_string(dimension) + "-d, " +
-                       std::to_string(count) + " points, " + std::to_string(scale));
-          expect_bytes_find_all(make_cloud(shape, dimension, count, scale));
-        }
-      }
-    }
-  }
+  for_each_cloud({CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kFlat,
+                  CloudShape::kCubeCorners},
+                 {1u, 2u, 3u, 5u, 8u, 11u, 16u}, {1u, 2u, 31u, 33u, 257u, 5000u}, expect_bytes_find_all);
 }
 
 TEST(BytePointsLaw, SeveralSegmentsAreOne) {

@@ -44,18 +44,8 @@ void expect_all_products(const DirectionCloud& cloud) {
 }
 
 TEST(PointTreeLaw, TheResultIsThatOfAllProductsDigitForDigit) {
-  for (const CloudShape shape :
-       {CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kFlat}) {
-    for (const std::size_t dimension : {1u, 2u, 3u, 5u, 8u, 16u, 19u}) {
-      for (const std::size_t count : {1u, 2u, 15u, 17u, 257u, 5000u}) {
-        for (const double scale : {1.0, 1e-3, 1e3}) {
-          SCOPED_TRACE(std::to_string(static_cast<int>(shape)) + ", " + std::to_string(dimension) + "-d, " +
-                       std::to_string(count) + " points, " + std::to_string(scale));
-          expect_all_products(make_cloud(shape, dimension, count, scale));
-        }
-      }
-    }
-  }
+  for_each_cloud({CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kFlat},
+                 {1u, 2u, 3u, 5u, 8u, 16u, 19u}, {1u, 2u, 15u, 17u, 257u, 5000u}, expect_all_products);
 }
 
 TEST(PointTreeLaw, AllPointsAboveAreFound) {

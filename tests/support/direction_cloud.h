@@ -1,10 +1,14 @@
 // Points and directions for tests of searches along directions.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace ndhull {
@@ -55,6 +59,23 @@ inline DirectionCloud make_cloud(CloudShape shape, std::size_t dimension, std::s
   }
   cloud.find_ranges();
   return cloud;
+}
+
+/// Calls expect(cloud) for all of these shapes, dimensions and counts, with columns alike and very different.
+inline void for_each_cloud(std::initializer_list<CloudShape> shapes,
+                           std::initializer_list<std::size_t> dimensions,
+                           std::initializer_list<std::size_t> counts, void (*expect)(const DirectionCloud&)) {
+  for (const CloudShape shape : shapes) {
+    for (const std::size_t dimension : dimensions) {
+      for (const std::size_t count : counts) {
+        for (const double scale : {1.0, 1e-3, 1e3}) {
+          SCOPED_TRACE(std::to_string(static_cast<int>(shape)) + ", " + std::to_string(dimension) + "-d, " +
+                       std::to_string(count) + " points, " + std::to_string(scale));
+          expect(make_cloud(shape, dimension, count, scale));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace ndhull
