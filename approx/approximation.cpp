@@ -107,7 +107,7 @@ void Approximation::make_space(bool with_left_out) {
   }
   std::vector<Reach> furthest;
   const std::size_t few = accuracy_.facets > 0 ? kFewLeftOutForCount : kFewLeftOut;
-  if (with_left_out) {
+  if (with_left_out && !growth_.left_out().empty()) {
     const bool are_few = growth_.left_out().size() <= few;
     std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
     for (const LocatedPoint& point : growth_.left_out()) {
@@ -118,7 +118,7 @@ void Approximation::make_space(bool with_left_out) {
     }
     for (const Reach& reach : of_row)
       if (!are_few && reach.point.valid()) furthest.push_back(reach);
-  } else {
+  } else if (!with_left_out) {
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
       const std::uint32_t id = complex.outside_head[row] - 1;
@@ -149,6 +149,10 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   TrueWidths result;
   result.widths.resize(count);
   result.furthest.resize(count);
+  if (!left_out_tree_) {  // the fits have seen all points
+    for (std::size_t facet = 0; facet < count; ++facet) result.widths[facet] = covering.planes[facet].width();
+    return result;
+  }
   std::vector<double> normals(count * rank), lows(count);
   std::vector<std::uint32_t> row_of_alone(count, kNone);
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
@@ -166,7 +170,7 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
     }
     result.furthest[facet].dot = height;
   }
-  if (left_out_tree_) find_furthest(*left_out_tree_, normals, result.furthest);
+  find_furthest(*left_out_tree_, normals, result.furthest);
   for (std::size_t facet = 0; facet < count; ++facet)
     result.widths[facet] = result.furthest[facet].dot - lows[facet];
   return result;

@@ -5,7 +5,6 @@
 //   3 certify          core/membership      every point proven inside, or put back: growth goes on
 //   4 merge            approx/coplanar_merge  simplices on one plane become one facet
 //   5 facet table      approx/facet_table   planes in input units, outer and inner offsets proven, areas
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -32,16 +31,6 @@
 #include "core/stopwatch.h"
 
 namespace ndhull {
-namespace {
-
-void append(const IdRows& rows, IdRows& all) {
-  const auto size = static_cast<std::uint32_t>(all.values.size());
-  for (std::size_t row = 1; row < rows.begin.size(); ++row) all.begin.push_back(size + rows.begin[row]);
-  all.values.insert(all.values.end(), rows.values.begin(), rows.values.end());
-}
-
-}  // namespace
-
 /// One run: the tables that its steps hand on.
 class HullBuilder {
  public:
@@ -53,7 +42,7 @@ class HullBuilder {
   static void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
     hull.point_count = point_count;
     for (PointId& vertex : hull.vertices) vertex.value = ids[vertex.value];
-    for (std::uint32_t& id : hull.facet_vertices_.values) id = ids[id];
+    hull.lists_ = std::make_unique<Hull::Lists>();  // of the points as they are called now
     const std::size_t rank = hull.simplices.rank;
     for (std::size_t row = 0; row < hull.simplices.row_count; ++row) {
       std::uint32_t* vertices = hull.simplices.topology.data() + row * 2 * rank;
@@ -211,66 +200,7 @@ class HullBuilder {
     hull_.volume = table.volume;
     hull_.own_ids_.resize(complex().row_count);
     for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
-    list_irregular_facets();
     hull_.simplices = std::move(complex());
-  }
-
-  /// Vertices and neighbours of the facets that are merged or have a merged neighbour.
-  void list_irregular_facets() {
-    constexpr std::size_t kFacetsAtATime = 512;
-    /// Which facet met a vertex or facet last.
-    struct Seen {
-      std::vector<std::uint32_t> vertex, facet;
-    };
-    const FacetLayout& layout = hull_.layout_;
-    tbb::enumerable_thread_specific<Seen> seen_of_thread([&] {
-      return Seen{std::vector<std::uint32_t>(points_.rows, FacetId::kNone),
-                  std::vector<std::uint32_t>(layout.facets, FacetId::kNone)};
-    });
-    const std::size_t count = layout.facets - layout.regular;
-    struct Lists {
-      IdRows vertices, neighbours;
-    };
-    std::vector<Lists> lists((count + kFacetsAtATime - 1) / kFacetsAtATime);
-    for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
-      Seen& seen = seen_of_thread.local();
-      Lists& block = lists[begin / kFacetsAtATime];
-      for (std::size_t i = begin; i < end; ++i) {
-        const FacetId facet{static_cast<std::uint32_t>(layout.regular + i)};
-        list_irregular_facet(facet, seen.vertex, seen.facet, block.vertices, block.neighbours);
-      }
-    });
-    for (Lists& block : lists) {
-      append(block.vertices, hull_.facet_vertices_);
-      append(block.neighbours, hull_.facet_neighbours_);
-      block = Lists();
-    }
-  }
-
-  void list_irregular_facet(FacetId facet, std::vector<std::uint32_t>& seen_vertex,
-                            std::vector<std::uint32_t>& seen_facet, IdRows& vertices, IdRows& neighbours) {
-    const FacetLayout& layout = hull_.layout_;
-    const bool simplicial = hull_.is_simplicial(facet);
-    seen_facet[facet.value] = facet.value;
-    for (const SimplexId simplex : hull_.simplices_of(facet)) {
-      for (const PointId id : complex().vertices(simplex)) {
-        if (seen_vertex[id.value] == facet.value || !is_vertex_[id.value]) continue;
-        seen_vertex[id.value] = facet.value;
-        vertices.values.push_back(id.value);
-      }
-      for (const SimplexId neighbour : complex().neighbours(simplex)) {
-        const std::uint32_t other = layout.facet_of(neighbour).value;
-        if (!simplicial && seen_facet[other] == facet.value) continue;
-        seen_facet[other] = facet.value;
-        neighbours.values.push_back(other);
-      }
-    }
-    if (!simplicial) {
-      std::sort(vertices.values.begin() + vertices.begin.back(), vertices.values.end());
-      std::sort(neighbours.values.begin() + neighbours.begin.back(), neighbours.values.end());
-    }
-    vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
-    neighbours.begin.push_back(static_cast<std::uint32_t>(neighbours.values.size()));
   }
 
   const PointView& points_;

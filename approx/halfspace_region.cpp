@@ -36,6 +36,12 @@ struct LocalPlanes {
   std::vector<double> lengths;  // of the halfspace's unit normal in these coordinates
 };
 
+/// Of several the shortest. One function for all uses: Eigen's decomposition takes seconds to compile for
+/// each.
+VectorXd solve_least_squares(const MatrixXd& columns, const VectorXd& right_side) {
+  return columns.completeOrthogonalDecomposition().solve(right_side);
+}
+
 class RegionFinder {
  public:
   explicit RegionFinder(const HalfspaceSet& halfspaces) : halfspaces_(halfspaces) {
@@ -221,7 +227,7 @@ class RegionFinder {
       equations.col(static_cast<Index>(k)) = unit_normal(equation_weights_[k].halfspace);
     VectorXd sum = VectorXd::Zero(dimension);
     for (const WeightedHalfspace& term : weights) sum += term.weight * unit_normal(term.halfspace);
-    const VectorXd share = equations.completeOrthogonalDecomposition().solve(sum);
+    const VectorXd share = solve_least_squares(equations, sum);
     double multiple = 0.0;
     for (std::size_t k = 0; k < equation_weights_.size(); ++k)
       multiple = std::max(multiple, share[static_cast<Index>(k)] / equation_weights_[k].weight);
@@ -257,7 +263,7 @@ class RegionFinder {
       normals.col(k) = inside.normalized();
       heights[k] = -halfspaces_.distance(id, as_span(point_)) / inside.norm();
     }
-    point_ += region_.directions * normals.transpose().completeOrthogonalDecomposition().solve(heights);
+    point_ += region_.directions * solve_least_squares(normals.transpose(), heights);
     Eigen::ColPivHouseholderQR<MatrixXd> factors(normals);
     factors.setThreshold(kParallel);
     const MatrixXd q = factors.householderQ() * MatrixXd::Identity(rank, rank);

@@ -56,14 +56,21 @@ void Hull::widen(double distance) {
 
 double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.input_per_unit(normal(facet)); }
 
+const FacetLists& Hull::lists() const {
+  std::call_once(lists_->made, [this] {
+    lists_->lists = list_irregular_facets(simplices, layout_, vertices, point_count);
+  });
+  return lists_->lists;
+}
+
 std::span<const PointId> Hull::vertices_of(FacetId facet) const {
   if (facet.value < layout_.regular) return simplices.vertices(SimplexId{facet.value});
-  return as_ids<PointId>(facet_vertices_.row(facet.value - layout_.regular));
+  return as_ids<PointId>(lists().vertices.row(facet.value - layout_.regular));
 }
 
 std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
   if (facet.value >= layout_.regular)
-    return as_ids<FacetId>(facet_neighbours_.row(facet.value - layout_.regular));
+    return as_ids<FacetId>(lists().neighbours.row(facet.value - layout_.regular));
   const auto neighbours = simplices.neighbours(SimplexId{facet.value});
   return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
 }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -13,10 +15,10 @@
 
 #include "approx/accuracy.h"
 #include "approx/facet_layout.h"
+#include "approx/facet_lists.h"
 #include "approx/length_unit.h"
 #include "core/dimension_switch.h"
 #include "core/huge_array.h"
-#include "core/id_rows.h"
 #include "core/ids.h"
 #include "core/points.h"
 #include "core/simplicial_complex.h"
@@ -151,7 +153,8 @@ class Hull {
   double input_per_length_unit(FacetId facet) const;
 
   /// Of a simplicial facet the rank ids in the order of its simplex, neighbour k opposite vertex k; of a
-  /// merged one sorted ids.
+  /// merged one sorted ids. Cost  the first call for a facet that is merged, or beside a merged one, lists
+  /// all of these (facet_lists.h); several threads may make it.
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
@@ -166,8 +169,14 @@ class Hull {
   friend class HullBuilder;
   FacetLayout layout_;
   HugeArray<double> normals_, centred_offsets_, outer_, inner_, areas_;
-  IdRows facet_vertices_, facet_neighbours_;  // row f - layout_.regular: facets that are no mere simplex
-  std::vector<SimplexId> own_ids_;            // 0, 1, 2, ...
+  struct Lists {
+    std::once_flag made;
+    FacetLists lists;
+  };
+  const FacetLists& lists() const;
+  // Made when they are first asked for: planes, widths and areas need none.
+  std::unique_ptr<Lists> lists_ = std::make_unique<Lists>();
+  std::vector<SimplexId> own_ids_;  // 0, 1, 2, ...
   LengthUnit length_unit_;
 };
 

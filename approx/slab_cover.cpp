@@ -221,49 +221,70 @@ double SlabCover::depth_below(FittedPlane& plane, Members simplices) {
   return plane.height - low;
 }
 
+/// Connected parts of facets: each row's part is known by its first row.
+class FacetParts {
+ public:
+  FacetParts(const SimplicialComplex& complex, const std::vector<std::uint32_t>& facet_of)
+      : first_(complex.row_count) {
+    // Rows as they stand in memory; each ridge from the later of its two.
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      first_[row] = row;
+      if (facet_of[row] == kNone) continue;
+      for (const SimplexId neighbour : complex.neighbours(SimplexId{row}))
+        if (neighbour.value < row && facet_of[neighbour.value] == facet_of[row]) join(neighbour.value, row);
+    }
+  }
+  /// Valid for ascending rows, once each.
+  std::uint32_t part_of(std::uint32_t row) { return first_[row] = first_[first_[row]]; }
+
+ private:
+  std::uint32_t find(std::uint32_t row) {
+    while (first_[row] != row) row = first_[row] = first_[first_[row]];
+    return row;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) first_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::uint32_t> first_;
+};
+
 /// All connected parts of the facets but the largest of each, in the order of their first simplex.
 std::vector<SlabCover::Stray> SlabCover::find_strays(const Covering& covering) const {
-  const FacetMembers members_of(covering);
-  const std::size_t count = covering.planes.size();
-  std::vector<std::uint8_t> is_met(complex_.row_count, 0);  // each by the thread that looks at its facet
-  std::vector<std::vector<Stray>> strays_of((count + kFacetsAtATime - 1) / kFacetsAtATime);
-  for_each_block(count, kFacetsAtATime, [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> order, part_begin;
-    for (auto facet = static_cast<std::uint32_t>(first); facet != last; ++facet) {
-      order.clear();
-      part_begin.clear();
-      for (const std::uint32_t row : members_of.of(facet)) {
-        if (is_met[row] != 0) continue;
-        part_begin.push_back(static_cast<std::uint32_t>(order.size()));
-        is_met[row] = 1;
-        order.push_back(row);
-        for (std::size_t i = part_begin.back(); i < order.size(); ++i) {
-          for (const SimplexId neighbour : complex_.neighbours(SimplexId{order[i]})) {
-            if (covering.facet_of[neighbour.value] != facet || is_met[neighbour.value] != 0) continue;
-            is_met[neighbour.value] = 1;
-            order.push_back(neighbour.value);
-            __builtin_prefetch(complex_.neighbours(neighbour).data());
-          }
-        }
-      }
-      if (part_begin.size() < 2) continue;
-      part_begin.push_back(static_cast<std::uint32_t>(order.size()));
-      std::size_t largest = 0;
-      const auto size_of = [&](std::size_t part) { return part_begin[part + 1] - part_begin[part]; };
-      for (std::size_t part = 1; part + 1 < part_begin.size(); ++part)
-        if (size_of(part) > size_of(largest)) largest = part;
-      for (std::size_t part = 0; part + 1 < part_begin.size(); ++part) {
-        if (part == largest) continue;
-        strays_of[first / kFacetsAtATime].push_back(
-            {facet, {order.begin() + part_begin[part], order.begin() + part_begin[part + 1]}});
-      }
+  FacetParts parts(complex_, covering.facet_of);
+  std::vector<std::uint32_t> size_of(complex_.row_count, 0), largest_of(covering.planes.size(), kNone);
+  std::vector<std::uint32_t> others;  // first rows of the parts that are not a facet's first
+  for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
+    const std::uint32_t facet = covering.facet_of[row];
+    if (facet == kNone) continue;
+    const std::uint32_t part = parts.part_of(row);
+    ++size_of[part];
+    if (part != row) continue;
+    if (largest_of[facet] == kNone) {
+      largest_of[facet] = part;
+    } else {
+      others.push_back(part);
     }
-  });
+  }
+  if (others.empty()) return {};
+  for (const std::uint32_t part : others) {
+    std::uint32_t& largest = largest_of[covering.facet_of[part]];
+    if (size_of[part] > size_of[largest]) largest = part;
+  }
   std::vector<Stray> strays;
-  for (std::vector<Stray>& some : strays_of)
-    strays.insert(strays.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
-  std::sort(strays.begin(), strays.end(),
-            [](const Stray& a, const Stray& b) { return a.simplices[0] < b.simplices[0]; });
+  std::vector<std::uint32_t> place_of(complex_.row_count, kNone);
+  for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
+    const std::uint32_t facet = covering.facet_of[row];
+    if (facet == kNone) continue;
+    const std::uint32_t part = parts.part_of(row);
+    if (largest_of[facet] == part) continue;
+    if (part == row) {
+      place_of[part] = static_cast<std::uint32_t>(strays.size());
+      strays.push_back({facet, {}});
+    }
+    strays[place_of[part]].simplices.push_back(row);
+  }
   return strays;
 }
 
