@@ -2,14 +2,13 @@
 // the largest product is remembered and searched at the end.
 #include "approx/contains.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "approx/halfspace_set.h"
+#include "core/blocks.h"
 #include "core/error.h"
 #include "core/plane_kernels.h"
 #include "core/plane_value.h"
@@ -107,13 +106,10 @@ std::vector<PlaneDistance> distances_to_planes(const PointView& queries, std::sp
   }
   const Comparer comparer(queries, planes);
   std::vector<PlaneDistance> distances(queries.rows);
-  const std::size_t blocks = (queries.rows + kQueryBlock - 1) / kQueryBlock;
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const std::size_t begin = block * kQueryBlock;
-      const std::size_t used = std::min(kQueryBlock, queries.rows - begin);
-      comparer.compare(begin, {distances.data() + begin, used});
+    for_each_block(queries.rows, kQueryBlock, [&](std::size_t begin, std::size_t end) {
+      comparer.compare(begin, {distances.data() + begin, end - begin});
     });
   });
   return distances;

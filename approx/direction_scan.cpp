@@ -2,12 +2,11 @@
 // tiles; the answers of tasks are joined in that order too, so they do not depend on how the work was shared.
 #include "approx/direction_scan.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "approx/direction_scan_kernel.h"
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -139,7 +138,7 @@ void scan_directions_in_parallel(const ScanTiles& tiles, std::span<const float> 
     const std::size_t first = task / tile_blocks * kDirectionsPerTask;
     return std::pair(first, std::min(kDirectionsPerTask, queries.size() - first));
   };
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t task) {
+  for_each_block(tasks.size(), 1, [&](std::size_t task, std::size_t) {
     const auto [first, count] = block_of(task);
     const std::size_t begin = task % tile_blocks * kTilesPerTask;
     run_task(tiles, begin, std::min(begin + kTilesPerTask, tiles.tile_count()),

@@ -1,12 +1,11 @@
 #include "approx/facet_search.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "approx/orthonormal.h"
+#include "core/blocks.h"
 #include "core/dense_views.h"
 
 namespace ndhull {
@@ -111,7 +110,7 @@ std::vector<std::uint32_t> FacetSearch::enter(std::span<const WalkResult> walks)
     facets_of_hash_[hash_of(on_plane)].push_back(ids[row]);
     first_walks.push_back(row);
   }
-  tbb::parallel_for(std::size_t{0}, first_walks.size(), [&](std::size_t one) {
+  for_each_block(first_walks.size(), 1, [&](std::size_t one, std::size_t) {
     const WalkResult& walk = walks[first_walks[one]];
     const RayFacet made = geometry_.make_facet(walk.on_plane, walk.basis);
     FoundFacet& facet = facets_[ids[first_walks[one]]];
@@ -194,7 +193,7 @@ void FacetSearch::climb_from(std::span<const std::uint32_t> from, std::stop_toke
   std::vector<WalkTask> tasks;
   std::vector<std::size_t> ends;
   std::vector<std::vector<WalkTask>> ridges(from.size());
-  tbb::parallel_for(std::size_t{0}, from.size(), [&](std::size_t row) {
+  for_each_block(from.size(), 1, [&](std::size_t row, std::size_t) {
     const auto points = points_of(from[row]);
     if (points.size() == shooter_.frame().rank) {
       RayFacet simplex;

@@ -4,8 +4,6 @@
 // is as many for any number of threads.
 #include "approx/kept_points.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <string>
 
 #include "approx/hull_distance.h"
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -55,11 +54,13 @@ class Chooser {
   void keep(std::size_t vertex) {
     kept_.conservativeResize(Eigen::NoChange, kept_.cols() + 1);
     kept_.col(kept_.cols() - 1) = columns_.col(static_cast<Index>(vertex));
-    tbb::parallel_for(std::size_t{0}, vertices_.size(), [&](std::size_t row) {
-      const HullDistance& known = found_[row];
-      if (known.places.empty()) return;
-      const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(row));
-      if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[row] = 0;
+    for_each_block(vertices_.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row != end; ++row) {
+        const HullDistance& known = found_[row];
+        if (known.places.empty()) continue;
+        const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(row));
+        if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[row] = 0;
+      }
     });
     if (queue_.empty()) {
       for (std::uint32_t row = 0; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
@@ -75,7 +76,7 @@ class Chooser {
         queue_.pop();
       }
       if (looks.empty()) return queue_.top().vertex;
-      tbb::parallel_for(std::size_t{0}, looks.size(), [&](std::size_t one) {
+      for_each_block(looks.size(), 1, [&](std::size_t one, std::size_t) {
         HullDistance& known = found_[looks[one]];
         known = hull_distance(kept_, columns_.col(static_cast<Index>(looks[one])), std::move(known));
         is_current_[looks[one]] = 1;
@@ -137,7 +138,7 @@ std::vector<double> distances_from_hull(const PointView& points, std::span<const
                                         std::span<const double> centre) {
   const Eigen::MatrixXd columns = gather_columns(points, hull, centre);
   std::vector<double> distances(points.rows);
-  tbb::parallel_for(std::size_t{0}, points.rows, [&](std::size_t row) {
+  for_each_block(points.rows, 1, [&](std::size_t row, std::size_t) {
     Eigen::VectorXd point(static_cast<Index>(points.dimension));
     for (std::size_t k = 0; k < points.dimension; ++k) {
       point[static_cast<Index>(k)] = points.at(row, k) - centre[k];

@@ -1,13 +1,11 @@
 #include "approx/plane_certificate.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "approx/facet_table.h"
 #include "approx/frame_planes.h"
+#include "core/blocks.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -25,9 +23,9 @@ PlaneCertificate certify_planes(const PointView& points, const Frame& frame,
     map_normals(frame, plane.data(), 1, normals.data() + row * dimension);
   }
   constexpr std::size_t kFacetsAtATime = 16;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, facets.size(), kFacetsAtATime), [&](const auto& some) {
-    max_dots(dimension, {normals.data() + some.begin() * dimension, some.size() * dimension}, all.rows,
-             {highest.data() + some.begin(), some.size()});
+  for_each_block(facets.size(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    max_dots(dimension, {normals.data() + begin * dimension, (end - begin) * dimension}, all.rows,
+             {highest.data() + begin, end - begin});
   });
   for (std::size_t row = 0; row < facets.size(); ++row) {
     const double* const normal = normals.data() + row * dimension;

@@ -17,9 +17,6 @@
 
 #include "approx/plane_scan.h"
 
-#include <tbb/blocked_range2d.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -27,6 +24,7 @@
 #include <vector>
 
 #include "approx/plane_scan_kernel.h"
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -222,23 +220,24 @@ PlaneScan scan_planes(const PointView& points, const PlaneSource& planes, Doubtf
   }
 
   const auto slabs = [](std::size_t count, std::size_t size) { return (count + size - 1) / size; };
-  const tbb::blocked_range2d<std::size_t> grid(0, slabs(points.rows, kPointsPerTask), 1, 0,
-                                               slabs(planes.count(), kPlanesPerTask), 1);
-  return tbb::parallel_reduce(
-      grid, nothing,
-      [&](const tbb::blocked_range2d<std::size_t>& range, PlaneScan sum) {
-        for (std::size_t slab = range.rows().begin(); slab != range.rows().end(); ++slab) {
-          for (std::size_t chunk = range.cols().begin(); chunk != range.cols().end(); ++chunk) {
-            Task task(points, planes, doubtful, worst_known);
-            sum = joined(
-                sum,
-                task.run(slab * kPointsPerTask, std::min(points.rows, (slab + 1) * kPointsPerTask),
-                         chunk * kPlanesPerTask, std::min(planes.count(), (chunk + 1) * kPlanesPerTask)));
-          }
-        }
-        return sum;
-      },
-      joined);
+  const std::size_t chunks = slabs(planes.count(), kPlanesPerTask);
+  const std::size_t tasks = slabs(points.rows, kPointsPerTask) * chunks;
+  constexpr std::size_t kMostParts = 4096;
+  const std::size_t tasks_at_a_time = slabs(tasks, kMostParts);
+  std::vector<PlaneScan> parts(slabs(tasks, tasks_at_a_time), nothing);
+  for_each_block(tasks, tasks_at_a_time, [&](std::size_t begin, std::size_t end) {
+    PlaneScan& part = parts[begin / tasks_at_a_time];
+    for (std::size_t one = begin; one != end; ++one) {
+      const std::size_t slab = one / chunks, chunk = one % chunks;
+      Task task(points, planes, doubtful, worst_known);
+      part = joined(part,
+                    task.run(slab * kPointsPerTask, std::min(points.rows, (slab + 1) * kPointsPerTask),
+                             chunk * kPlanesPerTask, std::min(planes.count(), (chunk + 1) * kPlanesPerTask)));
+    }
+  });
+  PlaneScan all = nothing;
+  for (const PlaneScan& part : parts) all = joined(all, part);
+  return all;
 }
 
 }  // namespace ndhull

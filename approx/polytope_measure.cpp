@@ -1,5 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +6,7 @@
 #include <optional>
 
 #include "approx/plane_polytope.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/error.h"
 
@@ -229,9 +228,9 @@ class Measurer {
                                const std::vector<std::uint32_t>& parents) const {
     const std::size_t dimension = rank_ - higher.width;
     std::vector<double> terms(parents.size(), 0.0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level.size(), 1024), [&](const auto& range) {
+    for_each_block(level.size(), 1024, [&](std::size_t begin, std::size_t end) {
       FaceFrame<D> frame(polytope_);
-      for (std::size_t face = range.begin(); face != range.end(); ++face) {
+      for (std::size_t face = begin; face != end; ++face) {
         if (level.measure[face] == 0.0) continue;
         bool is_set = false;
         for (std::size_t k = face * level.width; k < (face + 1) * level.width; ++k) {

@@ -1,6 +1,5 @@
 #include "approx/ray_shooting.h"
 
-#include <tbb/parallel_for.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/blocks.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
@@ -339,7 +339,7 @@ std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::s
     if (active.empty()) break;
     const std::size_t groups = (active.size() + kWalksPerGroup - 1) / kWalksPerGroup;
     std::vector<WalkCounters> group_counters(groups);
-    tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t group) {
+    for_each_block(groups, 1, [&](std::size_t group, std::size_t) {
       std::vector<Walker*> members;
       for (std::size_t row = group; row < active.size(); row += groups) {
         Walker& walker = *active[row];
@@ -371,7 +371,7 @@ std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::s
     }
     scan_directions_in_parallel(all_, directions, queries);
     counters_.all_products += asking.size() * all_.size();
-    tbb::parallel_for(std::size_t{0}, asking.size(), [&](std::size_t row) {
+    for_each_block(asking.size(), 1, [&](std::size_t row, std::size_t) {
       asking[row]->query = std::move(queries[row]);
       decide(*asking[row]);
     });

@@ -4,15 +4,14 @@
 
 #include "approx/verify_facets.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -297,22 +296,16 @@ void verify_counts(const PointView& points, const HullClaims& hull, Verification
 
 void verify_facets(const PointView& points, const HullClaims& hull, DoubtfulSign doubtful,
                    Verification& result) {
-  const tbb::blocked_range<std::size_t> facets(0, hull.facet_count(), 256);
-  const auto join = [](Records a, const Records& b) {
-    for (std::size_t row = 0; row < a.size(); ++row) join_records(a[row], b[row]);
-    return a;
-  };
-  const Records records = tbb::parallel_reduce(
-      facets, Records{},
-      [&](const tbb::blocked_range<std::size_t>& range, const Records& before) {
-        FacetChecker checker(points, hull, doubtful);
-        for (std::size_t row = range.begin(); row != range.end(); ++row) {
-          checker.check(FacetId{static_cast<std::uint32_t>(row)});
-        }
-        return join(before, checker.records());
-      },
-      join);
-  for (std::size_t row = 0; row < records.size(); ++row) join_records(result.claims[row], records[row]);
+  const std::size_t count = hull.facet_count();
+  constexpr std::size_t kFacetsAtATime = 2048;
+  std::vector<Records> parts((count + kFacetsAtATime - 1) / kFacetsAtATime);
+  for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    FacetChecker checker(points, hull, doubtful);
+    for (std::size_t row = begin; row != end; ++row) checker.check(FacetId{static_cast<std::uint32_t>(row)});
+    parts[begin / kFacetsAtATime] = checker.records();
+  });
+  for (const Records& part : parts)
+    for (std::size_t row = 0; row < part.size(); ++row) join_records(result.claims[row], part[row]);
   verify_counts(points, hull, result);
 }
 

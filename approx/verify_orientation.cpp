@@ -6,14 +6,12 @@
 // An orientation that intervals cannot decide costs up to a millisecond. Ridges that are nearly flat by the
 // facet's own plane are counted first, and sampled at a stride when there are too many.
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "approx/verify_facets.h"
+#include "core/blocks.h"
 #include "core/exact_orientation.h"
 
 namespace ndhull {
@@ -149,23 +147,20 @@ void verify_orientation(const PointView& points, const HullClaims& hull, Verific
       });
     }
   }
-  const auto join = [](Found a, const Found& b) {
-    join_records(a.record, b.record);
-    a.concave += b.concave;
-    return a;
-  };
-  const Found found = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, sample.size(), 64), Found{},
-      [&](const tbb::blocked_range<std::size_t>& range, Found sum) {
-        RidgeChecker checker(points, hull);
-        for (std::size_t row = range.begin(); row != range.end(); ++row) checker.check(sample[row], sum);
-        return sum;
-      },
-      join);
+  constexpr std::size_t kRidgesAtATime = 1024;
+  std::vector<Found> parts((sample.size() + kRidgesAtATime - 1) / kRidgesAtATime);
+  for_each_block(sample.size(), kRidgesAtATime, [&](std::size_t begin, std::size_t end) {
+    RidgeChecker checker(points, hull);
+    for (std::size_t row = begin; row != end; ++row)
+      checker.check(sample[row], parts[begin / kRidgesAtATime]);
+  });
   ClaimRecord& record = result.of(Claim::kOrientation);
-  join_records(record, found.record);
+  result.concave_ridges = 0;
+  for (const Found& part : parts) {
+    join_records(record, part.record);
+    result.concave_ridges += part.concave;
+  }
   record.complete = clear.stride == 1 && flat.stride == 1;
-  result.concave_ridges = found.concave;
 }
 
 }  // namespace ndhull

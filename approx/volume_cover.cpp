@@ -1,8 +1,5 @@
 #include "approx/volume_cover.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +9,7 @@
 #include "approx/boundedness.h"
 #include "approx/plane_candidates.h"
 #include "approx/volume_rays.h"
+#include "core/blocks.h"
 #include "core/ids.h"
 
 namespace ndhull {
@@ -103,11 +101,11 @@ std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, co
   // Distances in length units: a gauge over the length of its gradient.
   const Eigen::VectorXd lengths = (planes * factor.transpose()).rowwise().norm();
   std::vector<std::uint32_t> plane_of(complex.row_count);
-  const auto assign = [&](const tbb::blocked_range<std::uint32_t>& rows) {
+  for_each_block(complex.row_count, 64, [&](std::size_t begin, std::size_t end) {
     Eigen::MatrixXd vertices(rank, rank), gauges;
-    for (std::uint32_t row = rows.begin(); row != rows.end(); ++row) {
+    for (std::size_t row = begin; row != end; ++row) {
       Index column = 0;
-      for (const PointId id : complex.vertices(SimplexId{row})) {
+      for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
         vertices.col(column++) =
             Eigen::Map<const Eigen::VectorXd>(points + std::size_t{id.value} * complex.rank, rank);
       }
@@ -120,9 +118,7 @@ std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, co
         plane_of[row] = static_cast<std::uint32_t>(plane);
       }
     }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(complex.row_count), 64),
-                    assign);
+  });
   return plane_of;
 }
 
