@@ -108,7 +108,15 @@ void interpret(int status, const std::vector<std::uint8_t>& bytes, ChildResult& 
 
 }  // namespace
 
-ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds) {
+namespace {
+
+/// A child at work, and the end of the pipe that it answers through.
+struct StartedChild {
+  pid_t process = -1;
+  int answer = -1;
+};
+
+StartedChild start_child(const std::function<nlohmann::json()>& work) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) fail("pipe");
   std::fflush(nullptr);  // or the child would print what is in the buffers once more
@@ -119,14 +127,17 @@ ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max
     run_child(work, ends[1]);
   }
   close(ends[1]);
+  return {child, ends[0]};
+}
 
+ChildResult await(const StartedChild& child, double max_seconds) {
   std::vector<std::uint8_t> bytes;
-  const bool in_time = receive_all(ends[0], max_seconds, bytes);
-  close(ends[0]);
-  if (!in_time) kill(child, SIGKILL);
+  const bool in_time = receive_all(child.answer, max_seconds, bytes);
+  close(child.answer);
+  if (!in_time) kill(child.process, SIGKILL);
   int status = 0;
   rusage usage{};
-  while (wait4(child, &status, 0, &usage) < 0) {
+  while (wait4(child.process, &status, 0, &usage) < 0) {
     if (errno != EINTR) fail("wait4");
   }
 
@@ -139,6 +150,21 @@ ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max
     result.reason = fmt::format("stopped after {} s", max_seconds);
   }
   return result;
+}
+
+}  // namespace
+
+ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds) {
+  return await(start_child(work), max_seconds);
+}
+
+std::vector<ChildResult> run_in_children(const std::function<nlohmann::json()>& work, std::size_t count,
+                                         double max_seconds) {
+  std::vector<StartedChild> children;
+  for (std::size_t child = 0; child < count; ++child) children.push_back(start_child(work));
+  std::vector<ChildResult> results;
+  for (const StartedChild& child : children) results.push_back(await(child, max_seconds));
+  return results;
 }
 
 ProgramRun run_program(const std::vector<std::string>& words, const std::string& input_path,

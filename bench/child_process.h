@@ -28,6 +28,11 @@ struct ChildResult {
 /// Not promised  destructors: the child ends without running those of static objects.
 ChildResult run_in_child(const std::function<nlohmann::json()>& work, double max_seconds);
 
+/// The same in so many children at the same time. Each has the whole time limit from when the one before it
+/// ended.
+std::vector<ChildResult> run_in_children(const std::function<nlohmann::json()>& work, std::size_t count,
+                                         double max_seconds);
+
 /// What a program took from its start to its end, starting it and reading and writing its files included.
 struct ProgramRun {
   double wall_seconds = 0.0, cpu_seconds = 0.0;

@@ -47,6 +47,8 @@ void add_scaling_command(CLI::App& app);
 void add_selections_command(CLI::App& app);
 /// `sweep`: families, dimensions, numbers of points, options.
 void add_sweep_command(CLI::App& app);
+/// `threads`: several threads beside one.
+void add_threads_command(CLI::App& app);
 /// `rays`: the largest facets without the hull.
 void add_rays_command(CLI::App& app);
 

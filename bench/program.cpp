@@ -26,6 +26,7 @@ int run_bench(int argc, const char* const* argv) {
   add_selections_command(app);
   add_scaling_command(app);
   add_sweep_command(app);
+  add_threads_command(app);
   add_report_command(app);
   add_readme_command(app);
   add_all_command(app);

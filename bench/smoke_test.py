@@ -53,6 +53,14 @@ def test_cgal_and_lrs_find_the_same_facets():
     run("sweep", "--engines", "ndhull,other", exit_code=1)
 
 
+def test_threads_stand_beside_processes():
+    table = run("threads", "--only", "300 s D8", "--rounds", "1", "--threads", "2")
+    row = next(line for line in table.splitlines() if line.startswith("300 s D8 t1")).removeprefix("300 s D8 t1").split()
+    alone, threads, speed_up = (float(cell) for cell in row[:3])
+    assert abs(alone / threads - speed_up) < 0.02 * speed_up, table
+    assert run("threads", "--only", "300 s D8", "--max-seconds", "0.0001", exit_code=3).find("300 s D8") < 0
+
+
 def test_a_time_limit_is_reported_and_the_bench_goes_on():
     table = run("peers", "--only", "2000 s D5", "--rounds", "2", "--max-seconds", "0.0001", "--quiet")
     assert table.count("stopped after") == 2, table
