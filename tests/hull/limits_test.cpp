@@ -76,7 +76,8 @@ TEST(LimitsLaw, TheTimeLimitIsForTheWholeCallAndGrowthIsRecorded) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     EXPECT_EQ(hull.status, HullStatus::kTimeLimit);
     EXPECT_LT(hull.statistics.seconds[static_cast<std::size_t>(Phase::kGrowth)], 0.95 * seconds);
-    EXPECT_LT(elapsed.count(), 3.0 + seconds);  // on a machine with other work: alone it is 0.7 to 1.1 times
+    EXPECT_LT(elapsed.count(),
+              3.0 * kSlower + seconds);  // on a machine with other work: alone it is 0.7 to 1.1 times
     const std::vector<GrowthRecord>& curve = hull.statistics.growth_curve;
     ASSERT_GT(curve.size(), 3U);
     for (std::size_t i = 1; i < curve.size(); ++i) {
