@@ -106,10 +106,6 @@ void interpret(int status, const std::vector<std::uint8_t>& bytes, ChildResult& 
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// A child at work, and the end of the pipe that it answers through.
 struct StartedChild {
   pid_t process = -1;

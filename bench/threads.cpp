@@ -1,6 +1,6 @@
 // `ndhull-bench threads`: one thread alone, several threads, and as many processes of one thread at the same
-// time. What those processes lose to each other (cache, memory, clock) no threads can win: it bounds the
-// speed-up.
+// time. What those processes lose to each other is what the cores share: cache, memory, clock. That is a
+// yardstick and no bound: several threads have one hull in the cache, the processes one each.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -101,7 +101,8 @@ void run_threads(const ThreadsOptions& options) {
           "Seconds of exact hulls, medians of {} rounds in turns: one thread alone; {} threads; {} processes "
           "of "
           "one thread at the same time, each. `machine` is what these processes get done in the time of one "
-          "alone: threads that share nothing could be so much faster. In brackets single rounds.",
+          "alone: what the cores share costs them the rest; each has a hull of its own in the cache. In "
+          "brackets single rounds.",
           options.rounds, threads, threads),
       .columns = {"input", "1 thread", fmt::format("{} threads", threads), "speed-up",
                   fmt::format("{} at once", threads), "machine"},
@@ -123,7 +124,7 @@ void run_threads(const ThreadsOptions& options) {
 void add_threads_command(CLI::App& app) {
   const auto options = std::make_shared<ThreadsOptions>();
   CLI::App* command =
-      app.add_subcommand("threads", "several threads beside one, and what the machine has for them");
+      app.add_subcommand("threads", "several threads beside one, and beside as many processes at once");
   command->add_option("--only", options->only, "only the inputs whose name contains this");
   command->add_option("--rounds", options->rounds, "runs of each")
       ->check(CLI::Range(1U, 1000U))
