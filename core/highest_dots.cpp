@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
 #include "core/dimension_switch.h"
@@ -21,104 +20,106 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatTag = hn::CappedTag<float, PointGroups::kSize>;
+using BitsTag = hn::RebindToUnsigned<FloatTag>;
 using DoubleTag = hn::CappedTag<double, PointGroups::kSize>;
 
-/// One direction, scaled so that the products with scaled points are in [-1, 1].
-struct ScaledDirection {
-  std::vector<float> normal;
-  float doubtful = 0.0f;  // from here on a product in single precision may be as large as what is attained
-  bool own_are_close = false;  // all own vertices are so high that their products are among these
+/// Directions, scaled so that the products with scaled points are in [-1, 1]. Some at a time, each step for
+/// all of them: the steps of one alone wait for each other.
+template <std::size_t D, std::size_t kCount>
+struct ScaledDirections {
+  explicit ScaledDirections(std::size_t width) : normals(kCount * width) {}
+
+  std::vector<float> normals;  // kCount x dimension
+  float doubtful[kCount];  // from here on a product in single precision may be as large as what is attained
+  bool own_are_close[kCount];  // all own vertices are so high that their products are among these
 };
 
 // Roundings of the products in single precision, each at most 2^-24 of 1: of both factors, of the sums, and
 // one for those of double precision.
 inline float product_error(std::size_t dimension) { return static_cast<float>(dimension + 4) * 0x1p-24f; }
 
-template <std::size_t D>
+template <std::size_t D, std::size_t kCount>
 HWY_INLINE void scale_direction(const PointGroups& points, const double* normal, double low, double high,
-                                ScaledDirection& scaled) {
+                                ScaledDirections<D, kCount>& scaled, std::size_t at) {
   const std::size_t width = D > 0 ? D : points.dimension();
   const double* column_sizes = points.column_sizes().data();
   double size = 0.0;
   for (std::size_t k = 0; k < width; ++k) size += std::abs(normal[k]) * column_sizes[k];
   const double factor = 1.0 / size;
   for (std::size_t k = 0; k < width; ++k) {
-    scaled.normal[k] = static_cast<float>(normal[k] * column_sizes[k] * factor);
+    scaled.normals[at * width + k] = static_cast<float>(normal[k] * column_sizes[k] * factor);
   }
-  scaled.doubtful = static_cast<float>(high * factor) - 3.0f * product_error(width);
-  scaled.own_are_close = (high - low) * factor <= double{product_error(width)};
+  scaled.doubtful[at] = static_cast<float>(high * factor) - 3.0f * product_error(width);
+  scaled.own_are_close[at] = (high - low) * factor <= double{product_error(width)};
 }
 
-/// Marks the groups whose balls reach up to what is attained, one bit each. The sums are below 4, so their
-/// errors are below four times those of a product. A NaN is not below 0: it leaves nothing out.
+alignas(64) constexpr std::uint32_t kFirstIds[PointGroups::kSize] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                     8, 9, 10, 11, 12, 13, 14, 15};
+
+/// Lists the groups whose balls reach up to what is attained. The sums are below 4, so their errors are below
+/// four times those of a product. A NaN is not below 0: it leaves nothing out. Writes up to a vector more.
 template <std::size_t D>
-void mark_near_groups(const PointGroups& points, const ScaledDirection& direction, std::uint64_t* near) {
+std::size_t list_near_groups(const PointGroups& points, const float* normal, float doubtful,
+                             std::uint32_t* near) {
   const FloatTag tag;
+  const BitsTag id_tag;
+  const std::size_t lanes = hn::Lanes(tag);
   const std::size_t width = D > 0 ? D : points.dimension();
-  const auto base = hn::Set(tag, 4.0f * product_error(width + 2) - direction.doubtful);
+  const auto base = hn::Set(tag, 4.0f * product_error(width + 2) - doubtful);
   float length_sq = 0.0f;
-  for (std::size_t k = 0; k < width; ++k) length_sq += direction.normal[k] * direction.normal[k];
+  for (std::size_t k = 0; k < width; ++k) length_sq += normal[k] * normal[k];
   const auto length = hn::Set(tag, std::sqrt(length_sq) * (1.0f + 0x1p-18f));  // and what the sum has lost
-  constexpr std::size_t kWordBits = 64;
-  for (std::size_t word = 0; word < points.padded_count(); word += kWordBits) {
-    std::uint64_t bits = 0;
-    for (std::size_t at = 0; at < kWordBits; at += hn::Lanes(tag)) {
-      const std::size_t begin = word + at;
-      auto reach = hn::MulAdd(length, hn::LoadU(tag, points.radii() + begin), base);
-      for (std::size_t k = 0; k < width; ++k) {
-        const auto normal = hn::Set(tag, direction.normal[k]);
-        reach = hn::MulAdd(normal, hn::LoadU(tag, points.centres(k) + begin), reach);
-      }
-      std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(tag, hn::Not(hn::Lt(reach, hn::Zero(tag))), bytes);
-      std::uint64_t here = 0;
-      std::memcpy(&here, bytes, sizeof here);
-      bits |= here << at;
-    }
-    near[word / kWordBits] = bits;
+  const auto next = hn::Set(id_tag, static_cast<std::uint32_t>(lanes));
+  auto ids = hn::Load(id_tag, kFirstIds);
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < points.count(); begin += lanes) {
+    auto reach = hn::MulAdd(length, hn::LoadU(tag, points.radii() + begin), base);
+    for (std::size_t k = 0; k < width; ++k)
+      reach = hn::MulAdd(hn::Set(tag, normal[k]), hn::LoadU(tag, points.centres(k) + begin), reach);
+    const auto is_near = hn::RebindMask(id_tag, hn::Not(hn::Lt(reach, hn::Zero(tag))));
+    hn::StoreU(hn::Compress(ids, is_near), id_tag, near + count);
+    count += hn::CountTrue(id_tag, is_near);
+    ids = hn::Add(ids, next);
   }
+  return count;
 }
 
-/// Calls `call` with each group marked. One loop for 64 groups: its end is what the processor cannot predict.
-template <class Call>
-HWY_INLINE void for_each_group(std::span<const std::uint64_t> near, const Call& call) {
-  std::size_t base = 0;
-  for (std::uint64_t bits : near) {
-    for (; bits != 0; bits &= bits - 1) call(base + static_cast<std::size_t>(__builtin_ctzll(bits)));
-    base += 64;
-  }
+/// 1 where a product less `doubtful` is below 0. Such a sum begins with -doubtful: partial sums are below 2,
+/// and with the roundings of the factors its error is less than 2 product_error, which is what products as
+/// large as those of the own vertices are above `doubtful`.
+HWY_INLINE hn::Vec<BitsTag> is_below(hn::Vec<FloatTag> difference) {
+  return hn::ShiftRight<31>(hn::BitCast(BitsTag(), difference));
 }
 
 /// How many points of the groups may be as high as what is attained.
 template <std::size_t D>
-std::size_t count_doubtful(const PointGroups& points, const ScaledDirection& direction,
-                           std::span<const std::uint64_t> near) {
+std::size_t count_doubtful(const PointGroups& points, const float* normal, float doubtful,
+                           std::span<const std::uint32_t> near) {
   const FloatTag tag;
+  const BitsTag bits_tag;
   const std::size_t width = D > 0 ? D : points.dimension();
-  const auto doubtful = hn::Set(tag, direction.doubtful), one = hn::Set(tag, 1.0f);
-  auto count = hn::Zero(tag);
-  for_each_group(near, [&](std::size_t group) {
+  const auto minus_doubtful = hn::Set(tag, -doubtful);
+  auto below = hn::Zero(bits_tag);
+  for (const std::uint32_t group : near) {
     for (std::size_t at = 0; at < PointGroups::kSize; at += hn::Lanes(tag)) {
-      auto dot =
-          hn::Mul(hn::Set(tag, direction.normal[0]), hn::LoadU(tag, points.scaled_rows(group, 0) + at));
-      for (std::size_t k = 1; k < width; ++k) {
-        const auto normal = hn::Set(tag, direction.normal[k]);
-        dot = hn::MulAdd(normal, hn::LoadU(tag, points.scaled_rows(group, k) + at), dot);
+      auto difference = minus_doubtful;
+      for (std::size_t k = 0; k < width; ++k) {
+        const auto coordinates = hn::LoadU(tag, points.scaled_rows(group, k) + at);
+        difference = hn::MulAdd(hn::Set(tag, normal[k]), coordinates, difference);
       }
-      count = hn::Add(count, hn::IfThenZeroElse(hn::Lt(dot, doubtful), one));
+      below = hn::Add(below, is_below(difference));
     }
-  });
-  // Below 2^24 in each lane, or not exact but far from any facet's number of vertices.
-  return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(tag, count)));
+  }
+  return near.size() * PointGroups::kSize - hn::GetLane(hn::SumOfLanes(bits_tag, below));
 }
 
 template <std::size_t D>
-double largest_in_groups(const PointGroups& points, const double* normal, std::span<const std::uint64_t> near,
+double largest_in_groups(const PointGroups& points, const double* normal, std::span<const std::uint32_t> near,
                          double largest) {
   const DoubleTag tag;
   const std::size_t width = D > 0 ? D : points.dimension();
   auto best = hn::Set(tag, largest);
-  for_each_group(near, [&](std::size_t group) {
+  for (const std::uint32_t group : near) {
     for (std::size_t at = 0; at < PointGroups::kSize; at += hn::Lanes(tag)) {
       auto dot = hn::Mul(hn::Set(tag, normal[0]), hn::LoadU(tag, points.rows(group, 0) + at));
       for (std::size_t k = 1; k < width; ++k) {
@@ -126,69 +127,93 @@ double largest_in_groups(const PointGroups& points, const double* normal, std::s
       }
       best = hn::Max(best, dot);
     }
-  });
+  }
   return hn::GetLane(hn::MaxOfLanes(tag, best));
 }
 
-/// One facet at a time: the groups near it.
+/// The groups near each facet.
 template <std::size_t D>
 void highest_dots_near(const PointGroups& points, std::span<const double> normals, const OwnDots& own,
                        std::span<double> largest) {
+  constexpr std::size_t kBatch = 32;
   const std::size_t width = D > 0 ? D : points.dimension();
-  ScaledDirection direction;
-  direction.normal.resize(width);
-  std::vector<std::uint64_t> near(points.padded_count() / 64);
-  for (std::size_t facet = 0; facet < largest.size(); ++facet) {
-    const double* normal = normals.data() + facet * width;
-    scale_direction<D>(points, normal, own.low[facet], own.high[facet], direction);
-    mark_near_groups<D>(points, direction, near.data());
-    largest[facet] = own.high[facet];
-    if (direction.own_are_close && count_doubtful<D>(points, direction, near) == own.count) {
-      continue;  // the own vertices are, and no other point is
+  const std::size_t row = points.padded_count() + PointGroups::kSize;
+  ScaledDirections<D, kBatch> directions(width);
+  std::vector<std::uint32_t> near(kBatch * row);
+  std::size_t near_count[kBatch];
+  for (std::size_t first = 0; first < largest.size(); first += kBatch) {
+    const std::size_t used = std::min(kBatch, largest.size() - first);
+    for (std::size_t i = 0; i < used; ++i) {
+      const std::size_t facet = first + i;
+      scale_direction(points, normals.data() + facet * width, own.low[facet], own.high[facet], directions, i);
     }
-    largest[facet] = largest_in_groups<D>(points, normal, near, own.high[facet]);
+    for (std::size_t i = 0; i < used; ++i) {
+      near_count[i] = list_near_groups<D>(points, directions.normals.data() + i * width,
+                                          directions.doubtful[i], near.data() + i * row);
+    }
+    for (std::size_t i = 0; i < used; ++i) {
+      const std::size_t facet = first + i;
+      const std::span<const std::uint32_t> groups(near.data() + i * row, near_count[i]);
+      largest[facet] = own.high[facet];
+      if (directions.own_are_close[i] && count_doubtful<D>(points, directions.normals.data() + i * width,
+                                                           directions.doubtful[i], groups) == own.count) {
+        continue;  // the own vertices are, and no other point is
+      }
+      largest[facet] = largest_in_groups<D>(points, normals.data() + facet * width, groups, own.high[facet]);
+    }
   }
 }
 
-/// A vector of facets at a time, and all points: where points are few or their balls large.
+/// Vectors of facets at a time, and all points: where points are few or their balls large.
 template <std::size_t D>
 void highest_dots_all(const PointGroups& points, std::span<const double> normals, const OwnDots& own,
                       std::span<double> largest) {
+  constexpr std::size_t kVectors = 2;  // facets that share what is loaded of a point
   const FloatTag tag;
-  const std::size_t lanes = hn::Lanes(tag);
+  const BitsTag bits_tag;
+  const std::size_t lanes = hn::Lanes(tag), batch = kVectors * lanes;
   const std::size_t width = D > 0 ? D : points.dimension();
-  ScaledDirection direction;
-  direction.normal.resize(width);
-  std::vector<float> transposed(width * lanes);
-  float doubtful[PointGroups::kSize], counts[PointGroups::kSize];
-  bool own_are_close[PointGroups::kSize];
-  std::vector<std::uint64_t> all((points.count() + 63) / 64, ~std::uint64_t{0});
-  all.back() >>= 64 * all.size() - points.count();
-  for (std::size_t begin = 0; begin < largest.size(); begin += lanes) {
-    const std::size_t used = std::min(lanes, largest.size() - begin);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t facet = begin + std::min(lane, used - 1);
-      scale_direction<D>(points, normals.data() + facet * width, own.low[facet], own.high[facet], direction);
-      for (std::size_t k = 0; k < width; ++k) transposed[k * lanes + lane] = direction.normal[k];
-      doubtful[lane] = direction.doubtful;
-      own_are_close[lane] = direction.own_are_close;
+  ScaledDirections<D, kVectors * PointGroups::kSize> directions(width);
+  std::vector<float> transposed(width * batch);
+  std::uint32_t below_count[kVectors * PointGroups::kSize];
+  std::vector<std::uint32_t> all(points.count());
+  std::iota(all.begin(), all.end(), 0);
+  for (std::size_t first = 0; first < largest.size(); first += batch) {
+    const std::size_t used = std::min(batch, largest.size() - first);
+    for (std::size_t lane = 0; lane < batch; ++lane) {
+      const std::size_t facet = first + std::min(lane, used - 1);
+      scale_direction(points, normals.data() + facet * width, own.low[facet], own.high[facet], directions,
+                      lane);
+      for (std::size_t k = 0; k < width; ++k)
+        transposed[k * batch + lane] = directions.normals[lane * width + k];
     }
-    const auto threshold = hn::LoadU(tag, doubtful), one = hn::Set(tag, 1.0f);
-    auto count = hn::Zero(tag);
-    for (std::size_t point = 0; point < points.point_count(); ++point) {
-      const float* x = points.scaled_rows(point / PointGroups::kSize, 0) + point % PointGroups::kSize;
-      auto dot = hn::Mul(hn::LoadU(tag, transposed.data()), hn::Set(tag, *x));
-      for (std::size_t k = 1; k < width; ++k) {
-        x += PointGroups::kSize;
-        dot = hn::MulAdd(hn::LoadU(tag, transposed.data() + k * lanes), hn::Set(tag, *x), dot);
+    const auto zero = hn::Zero(tag);
+    const auto minus_0 = hn::Sub(zero, hn::LoadU(tag, directions.doubtful));
+    const auto minus_1 = hn::Sub(zero, hn::LoadU(tag, directions.doubtful + lanes));
+    auto below_0 = hn::Zero(bits_tag), below_1 = below_0;
+    std::size_t left = points.point_count();
+    for (std::size_t group = 0; group < points.count(); ++group) {
+      const float* const rows = points.scaled_rows(group, 0);
+      const std::size_t size = std::min(left, PointGroups::kSize);
+      left -= size;
+      for (std::size_t i = 0; i < size; ++i) {
+        const float* const x = rows + i;
+        auto above_0 = minus_0, above_1 = minus_1;
+        for (std::size_t k = 0; k < width; ++k) {
+          const auto coordinate = hn::Set(tag, x[k * PointGroups::kSize]);
+          above_0 = hn::MulAdd(hn::LoadU(tag, transposed.data() + k * batch), coordinate, above_0);
+          above_1 = hn::MulAdd(hn::LoadU(tag, transposed.data() + k * batch + lanes), coordinate, above_1);
+        }
+        below_0 = hn::Add(below_0, is_below(above_0));
+        below_1 = hn::Add(below_1, is_below(above_1));
       }
-      count = hn::Add(count, hn::IfThenZeroElse(hn::Lt(dot, threshold), one));
     }
-    hn::StoreU(count, tag, counts);
+    hn::StoreU(below_0, bits_tag, below_count);
+    hn::StoreU(below_1, bits_tag, below_count + lanes);
     for (std::size_t lane = 0; lane < used; ++lane) {
-      const std::size_t facet = begin + lane;
+      const std::size_t facet = first + lane;
       largest[facet] = own.high[facet];
-      if (own_are_close[lane] && counts[lane] == static_cast<float>(own.count)) continue;
+      if (directions.own_are_close[lane] && points.point_count() - below_count[lane] == own.count) continue;
       largest[facet] = largest_in_groups<D>(points, normals.data() + facet * width, all, own.high[facet]);
     }
   }
@@ -282,25 +307,53 @@ PointGroups::PointGroups(std::size_t dimension, std::span<const double> points, 
 
 void PointGroups::fill_group(std::size_t group, std::span<const double> points,
                              std::span<const std::uint32_t> members) {
-  double distance_sq[kSize] = {};
   for (std::size_t k = 0; k < dimension_; ++k) {
-    double sum = 0.0;
     for (std::size_t i = 0; i < kSize; ++i) {  // the last point fills the last group
       const double x = points[members[std::min(i, members.size() - 1)] * dimension_ + k];
       const std::size_t at = (group * dimension_ + k) * kSize + i;
       rows_[at] = x;
       scaled_rows_[at] = static_cast<float>(x / column_sizes_[k]);
-      sum += x / column_sizes_[k];
     }
-    const auto centre = static_cast<float>(sum / static_cast<double>(kSize));
-    centres_[k * padded_count_ + group] = centre;
+  }
+  find_centre(group);
+  double distance_sq[kSize] = {};
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    const double centre{centres_[k * padded_count_ + group]};
     for (std::size_t i = 0; i < kSize; ++i) {
-      const double away = rows_[(group * dimension_ + k) * kSize + i] / column_sizes_[k] - double{centre};
+      const double away = rows_[(group * dimension_ + k) * kSize + i] / column_sizes_[k] - centre;
       distance_sq[i] += away * away;
     }
   }
   const double radius = std::sqrt(*std::max_element(distance_sq, distance_sq + kSize));
   radii_[group] = static_cast<float>(radius) * (1.0f + 0x1p-20f) + 0x1p-40f;
+}
+
+// Near that of the smallest ball: from the mean towards the furthest point, by less each time (Badoiu,
+// Clarkson. Smaller core-sets for balls. SODA 2003). Balls around the mean would leave half as many groups
+// again in doubt.
+void PointGroups::find_centre(std::size_t group) {
+  constexpr std::size_t kSteps = 24;
+  const float* const rows = scaled_rows(group, 0);
+  float* const centre = centres_.data() + group;
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    const float sum = std::accumulate(rows + k * kSize, rows + (k + 1) * kSize, 0.0f);
+    centre[k * padded_count_] = sum / static_cast<float>(kSize);
+  }
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    float distance_sq[kSize] = {};
+    for (std::size_t k = 0; k < dimension_; ++k) {
+      for (std::size_t i = 0; i < kSize; ++i) {
+        const float away = rows[k * kSize + i] - centre[k * padded_count_];
+        distance_sq[i] += away * away;
+      }
+    }
+    const auto furthest =
+        static_cast<std::size_t>(std::max_element(distance_sq, distance_sq + kSize) - distance_sq);
+    for (std::size_t k = 0; k < dimension_; ++k) {
+      float& entry = centre[k * padded_count_];
+      entry += (rows[k * kSize + furthest] - entry) / static_cast<float>(step + 2);
+    }
+  }
 }
 
 void highest_dots(const PointGroups& points, std::span<const double> normals, const OwnDots& own,

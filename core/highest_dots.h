@@ -45,6 +45,7 @@ class PointGroups {
 
  private:
   void fill_group(std::size_t group, std::span<const double> points, std::span<const std::uint32_t> members);
+  void find_centre(std::size_t group);
 
   std::size_t dimension_, point_count_, count_, padded_count_;
   std::vector<double> column_sizes_;  // powers of two, at least the largest |x_k|
