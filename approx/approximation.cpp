@@ -119,7 +119,7 @@ void Approximation::make_space(bool with_left_out) {
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
       const std::uint32_t id = complex.outside_head[row] - 1;
-      furthest.push_back({work.height[id], PointId{id}});
+      furthest.push_back({work.heights.height(id), PointId{id}});
     }
   }
   std::sort(furthest.begin(), furthest.end());

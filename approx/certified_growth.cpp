@@ -110,7 +110,7 @@ void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthe
 
 /// Coordinates, outside sets, flags, and what a proof lists of each point.
 std::uint64_t CertifiedGrowth::point_bytes() const {
-  return coordinates_.capacity() * 8 + points_.rows * (12 + 2 + sizeof(LocatedPoint));
+  return coordinates_.capacity() * 8 + points_.rows * (17 + 2 + sizeof(LocatedPoint));
 }
 
 void CertifiedGrowth::start() {
@@ -247,15 +247,7 @@ void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
   ++hull_.statistics.repair_rounds;
 }
 
-double CertifiedGrowth::furthest_height() const {
-  double furthest = 0.0;
-  const SimplicialComplex& complex = work_.complex;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
-    furthest = std::max(furthest, work_.height[complex.outside_head[row] - 1]);
-  }
-  return furthest;
-}
+double CertifiedGrowth::furthest_height() { return std::max(0.0, work_.heights.furthest().height); }
 
 void CertifiedGrowth::report_counters() {
   const GrowthCounters& counters = work_.counters;

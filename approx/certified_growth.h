@@ -66,7 +66,7 @@ class CertifiedGrowth {
   bool is_late();
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
   /// Height of the furthest point that is still in an outside set; 0 without one.
-  double furthest_height() const;
+  double furthest_height();
   /// Points that are no vertices and not well inside, each with the simplex it is above.
   const std::vector<LocatedPoint>& left_out() const { return left_out_; }
   /// Takes the points that are left out among those that the planes of so many facets are certified with, or,

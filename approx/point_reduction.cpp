@@ -354,7 +354,7 @@ class Reduction {
     const std::size_t first = work_.point_count;
     append(PointView::row_major(rows.data(), chosen.size(), dimension));
     work_.next_outside.resize(work_.point_count, 0);
-    work_.height.resize(work_.point_count, 0.0);
+    work_.heights.extend(work_.point_count);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const double* plane = work_.complex.plane(chosen[i].simplex).data();
       double gauge = -1.0;

@@ -312,15 +312,9 @@ bool Grower<D>::room_for_cone() {
 template <std::size_t D>
 GrowthStop Grower<D>::run() {
   std::uint64_t polled_at = 0;
-  while (!work_.pending.empty()) {
-    const OutsideSet furthest = work_.pending.front();
+  for (;;) {
+    const OutsideHeights::Furthest furthest = work_.heights.furthest();
     const std::uint32_t row = furthest.row;
-    if (state_[row] != SimplexState::kLive || head_[row] == 0 ||
-        work_.height[head_[row] - 1] != furthest.height) {
-      std::pop_heap(work_.pending.begin(), work_.pending.end());
-      work_.pending.pop_back();
-      continue;
-    }
     if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;
     if (work_.options.pause_rows != 0 && live_rows() >= work_.options.pause_rows &&
         furthest.height <= work_.options.pause_height) {
@@ -343,7 +337,6 @@ GrowthStop Grower<D>::run() {
         break;
     }
   }
-  return GrowthStop::kNoOutsidePoints;
 }
 
 }  // namespace HWY_NAMESPACE

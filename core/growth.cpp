@@ -90,16 +90,14 @@ double least_height(const GrowthWork& work) {
 }
 
 void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height) {
-  work.height[point] = height;
+  work.heights.put(point, row, height);
   std::uint32_t& head = work.complex.outside_head[row];
-  if (head != 0 && height <= work.height[head - 1]) {
+  if (head != 0 && height <= work.heights.height(head - 1)) {
     work.next_outside[point] = work.next_outside[head - 1];
     work.next_outside[head - 1] = point + 1;
   } else {
     work.next_outside[point] = head;
     head = point + 1;
-    work.pending.push_back({height, row});
-    std::push_heap(work.pending.begin(), work.pending.end());
   }
   ++work.points_outside;
 }
@@ -109,7 +107,7 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoint
   work.complex = SimplicialComplex(work.rank, capacity);
   work.free_rows = HugeArray<std::uint32_t>(capacity);
   work.next_outside.assign(work.point_count, 0);
-  work.height.assign(work.point_count, 0.0);
+  work.heights.reset(work.point_count);
   SimplicialComplex& complex = work.complex;
   complex.row_count = work.rank + 1;
   for (std::uint32_t row = 0; row <= work.rank; ++row) {

@@ -14,6 +14,7 @@
 
 #include "core/huge_array.h"
 #include "core/ids.h"
+#include "core/outside_heights.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -54,15 +55,6 @@ struct GrowthCounters {
   double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
 };
 
-/// An outside set in the queue; stale when its simplex is gone or its furthest point has changed.
-struct OutsideSet {
-  double height;  ///< of the furthest point
-  std::uint32_t row;
-  bool operator<(const OutsideSet& other) const {  // ties by id: the order must not depend on the heap
-    return height != other.height ? height < other.height : row > other.row;
-  }
-};
-
 /// Everything that growth works on. Plain tables: the phases are free functions.
 struct GrowthWork {
   std::size_t rank = 0;
@@ -74,8 +66,7 @@ struct GrowthWork {
   std::size_t free_count = 0;
 
   std::vector<std::uint32_t> next_outside;    ///< per point: next of the same outside set + 1, 0 at the end
-  std::vector<double> height;                 ///< per point: height above the simplex that holds it
-  std::vector<OutsideSet> pending;            ///< heap: the set with the furthest point of all comes first
+  OutsideHeights heights;                     ///< above the simplices in whose outside sets points are
   std::uint64_t points_outside = 0;           ///< in outside sets
   std::vector<std::uint32_t> waiting;         ///< ascending; neither in an outside set nor known to be inside
   double waiting_height = 0.0;                ///< no waiting point is further above the hull; may be +inf

@@ -39,13 +39,14 @@ std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gaug
 template <std::size_t D>
 void Grower<D>::drop_first(std::uint32_t row) {
   std::uint32_t rest = work_.next_outside[head_[row] - 1];
+  work_.heights.remove(head_[row] - 1);
   head_[row] = 0;
   --work_.points_outside;
   while (rest != 0) {
     const std::uint32_t id = rest - 1;
     rest = work_.next_outside[id];
     --work_.points_outside;
-    push_outside(work_, id, row, work_.height[id]);
+    push_outside(work_, id, row, work_.heights.height(id));
   }
 }
 
@@ -88,7 +89,10 @@ void Grower<D>::partition(std::uint32_t apex) {
         const std::uint32_t id = next - 1;
         next = work_.next_outside[id];
         --work_.points_outside;
-        if (id == apex) continue;
+        if (id == apex) {
+          work_.heights.remove(id);
+          continue;
+        }
         moved_.push_back(id);
         if (moved_.size() == kChunk) place_moved();
       }
@@ -119,9 +123,13 @@ void Grower<D>::place_moved() {
   } else {
     for_each_block(moved_.size(), kPointsInBlock, place);
   }
-  for (std::size_t i = 0; i < moved_.size(); ++i)
-    if (new_places_[i].row != kNoRow)
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    if (new_places_[i].row != kNoRow) {
       push_outside(work_, moved_[i], new_places_[i].row, new_places_[i].height);
+    } else {
+      work_.heights.remove(moved_[i]);
+    }
+  }
   moved_.clear();
 }
 
