@@ -183,9 +183,9 @@ class HullBuilder {
     growth_->release_coordinates();
     detail("vertices", start);
     start = Clock::now();
-    FacetTable table = make_facet_table(complex(), hull_.layout_, frame_, certificate,
-                                        {determinants_.data(), complex().row_count}, hull_.length_unit_,
-                                        growth_->covered_points(), known, options_.certifies_planes);
+    FacetTable table =
+        make_facet_table(complex(), hull_.layout_, frame_, certificate, std::move(determinants_),
+                         hull_.length_unit_, growth_->covered_points(), known, options_.certifies_planes);
     detail("facet table", start);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);

@@ -98,11 +98,12 @@ void write_planes(const Frame& frame, std::vector<FoundVertex>& found, const Ray
   std::sort(found.begin(), found.end(),
             [](const FoundVertex& a, const FoundVertex& b) { return a.id < b.id; });
   const std::size_t dimension = frame.dimension;
+  const NormalMap to_input(frame);
   std::vector<double> normal(dimension);
   for (const FoundVertex& vertex : found) {
     double length = 0.0;
     std::vector<double> plane = vertex.plane;
-    map_normals(frame, plane.data(), 1, normal.data(), &length);
+    to_input.map(plane.data(), 1, normal.data(), &length);
     // a.y = level with a.y = length normal.(x - centre)
     double offset = -vertex.level / length;
     for (std::size_t k = 0; k < dimension; ++k) offset -= normal[k] * frame.centre[k];

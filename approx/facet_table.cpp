@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "approx/frame_planes.h"
 #include "core/blocks.h"
@@ -69,208 +70,248 @@ struct FacetSums {
   double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0, area = 0.0;
 };
 
-/// The largest product of each facet's normal with any certificate point. `own.count`: vertices of each of
-/// the first `simplicial` facets.
-void find_highest(const CertificatePoints& points, std::span<const double> normals, const OwnDots& own,
-                  std::size_t simplicial, std::span<double> highest) {
-  constexpr std::size_t kFewFacets = 256;    // grouping the points costs more than it saves
-  constexpr std::size_t kManyPoints = 8192;  // most of them no vertices: far from most facets
-  constexpr std::size_t kFacetsAtATime = 4096;
-  const std::size_t dimension = points.dimension, count = highest.size();
-  // Facets are independent: the result does not depend on how they are shared out.
-  if (count >= kFewFacets && points.rows.size() / dimension >= kManyPoints) {
-    const StridedRows rows{points.rows.data(), points.rows.size() / dimension, dimension};
-    std::vector<double> low(dimension, HUGE_VAL), high(dimension, -HUGE_VAL);
-    for (std::size_t i = 0; i < points.rows.size(); i += dimension) {
-      for (std::size_t k = 0; k < dimension; ++k) {
-        low[k] = std::min(low[k], points.rows[i + k]);
-        high[k] = std::max(high[k], points.rows[i + k]);
+/// All facets of one hull: the loops that need each row once share it while it is in cache.
+class TableMaker {
+ public:
+  TableMaker(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
+             const CertificatePoints& points, HugeArray<double> determinants, const LengthUnit& unit,
+             const CoveredPoints& covered, const KnownHighest& known, bool certifies)
+      : complex_(complex),
+        layout_(layout),
+        frame_(frame),
+        points_(points),
+        unit_(unit),
+        covered_(covered),
+        known_(known),
+        certifies_(certifies),
+        dimension_(frame.dimension),
+        count_(layout.facets),
+        to_input_(frame),
+        volume_per_determinant_(1.0 /
+                                (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0))) {
+    determinants.discard_from(count_);
+    table_.offsets = std::move(determinants);
+  }
+
+  FacetTable run() {
+    drop_rounding(complex_, layout_);
+    allocate();
+    const bool has_merged = layout_.simplicial < count_;
+    if (has_merged || searches_many_points()) {
+      for_each_block(count_, kFacetsInBlock,
+                     [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
+      merged_dots(complex_, layout_, points_, table_.normals.data(), low(0, count_), high(0, count_));
+      if (searches_many_points()) search_many_points();
+      for_each_block(count_, kFacetsInBlock,
+                     [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
+    } else {
+      for_each_block(count_, kFacetsInBlock, [&](std::size_t begin, std::size_t end) {
+        begin_block(begin, end);
+        end_block(begin, end);
+      });
+    }
+    if (frame_.rank != dimension_) complex_.planes = HugeArray<double>();
+    sum_up();
+    return std::move(table_);
+  }
+
+ private:
+  static constexpr std::size_t kFacetsInBlock = 4096;
+  static constexpr std::size_t kFewFacets = 256;    // grouping the points costs more than it saves
+  static constexpr std::size_t kManyPoints = 8192;  // most of them no vertices: far from most facets
+
+  // Until a block is finished its rows hold what the offsets are made of: the smallest and the largest
+  // product with the facet's own vertices, the largest with any point, and the determinants.
+  std::span<double> low(std::size_t begin, std::size_t end) {
+    return {table_.inner.data() + begin, end - begin};
+  }
+  std::span<double> high(std::size_t begin, std::size_t end) {
+    return {table_.areas.data() + begin, end - begin};
+  }
+  std::span<double> highest(std::size_t begin, std::size_t end) {
+    return {table_.outer.data() + begin, end - begin};
+  }
+  std::span<const double> normals(std::size_t begin, std::size_t end) const {
+    return {table_.normals.data() + begin * dimension_, (end - begin) * dimension_};
+  }
+
+  void allocate() {
+    if (frame_.rank == dimension_) {
+      table_.normals = std::move(complex_.planes);
+      table_.normals.discard_from(count_ * dimension_);
+    } else {
+      table_.normals = HugeArray<double>(count_ * dimension_);
+    }
+    table_.outer = HugeArray<double>(count_);
+    table_.inner = HugeArray<double>(count_);
+    table_.areas = HugeArray<double>(count_);
+    parts_.resize((count_ + kFacetsInBlock - 1) / kFacetsInBlock);
+    if (certifies_ && known_.highest.empty() && !searches_many_points())
+      groups_.emplace(dimension_, points_.rows, count_ < kFewFacets);
+  }
+
+  bool searches_many_points() const {
+    return certifies_ && known_.highest.empty() && count_ >= kFewFacets &&
+           points_.rows.size() / dimension_ >= kManyPoints;
+  }
+
+  void begin_block(std::size_t begin, std::size_t end) {
+    const double* const planes =
+        (frame_.rank == dimension_ ? table_.normals : complex_.planes).data() + begin * frame_.rank;
+    to_input_.map(planes, end - begin, table_.normals.data() + begin * dimension_);
+    end = std::min(end, layout_.simplicial);
+    if (begin >= end) return;
+    own_dots(complex_, begin, dimension_, normals(begin, end), points_.rows, points_.row_of_point,
+             low(begin, end), high(begin, end));
+  }
+
+  void end_block(std::size_t begin, std::size_t end) {
+    if (!certifies_) {
+      std::fill_n(table_.outer.data() + begin, end - begin, HUGE_VAL);
+    } else if (!known_.highest.empty()) {
+      take_known(begin, end);
+    } else if (groups_) {
+      const std::size_t simplicial = std::clamp(layout_.simplicial, begin, end);
+      search_groups(begin, simplicial, frame_.rank);
+      search_groups(simplicial, end, 0);
+    }
+    finish(begin, end, parts_[begin / kFacetsInBlock]);
+  }
+
+  /// `own_count`: vertices of each facet; 0: they differ.
+  void search_groups(std::size_t begin, std::size_t end, std::size_t own_count) {
+    if (begin == end) return;
+    highest_dots(*groups_, normals(begin, end), {low(begin, end), high(begin, end), own_count},
+                 highest(begin, end));
+  }
+
+  void search_many_points() {
+    const StridedRows rows{points_.rows.data(), points_.rows.size() / dimension_, dimension_};
+    std::vector<double> lowest(dimension_, HUGE_VAL), largest(dimension_, -HUGE_VAL);
+    for (std::size_t i = 0; i < points_.rows.size(); i += dimension_) {
+      for (std::size_t k = 0; k < dimension_; ++k) {
+        lowest[k] = std::min(lowest[k], points_.rows[i + k]);
+        largest[k] = std::max(largest[k], points_.rows[i + k]);
       }
     }
-    std::vector<FurthestPoint> furthest(count);
-    for (std::size_t facet = 0; facet < count; ++facet) furthest[facet].dot = own.high[facet];
-    FurthestPoints(dimension, rows, low, high, false).find(normals, furthest);
-    for (std::size_t facet = 0; facet < count; ++facet) highest[facet] = furthest[facet].dot;
-    return;
-  }
-  const PointGroups groups(dimension, points.rows, count < kFewFacets);
-  const auto find = [&](std::size_t first, std::size_t last, std::size_t own_count) {
-    for_each_block(last - first, kFacetsAtATime, [&](std::size_t block_begin, std::size_t block_end) {
-      const std::size_t begin = first + block_begin, size = block_end - block_begin;
-      highest_dots(groups, normals.subspan(begin * dimension, size * dimension),
-                   {own.low.subspan(begin, size), own.high.subspan(begin, size), own_count},
-                   highest.subspan(begin, size));
-    });
-  };
-  find(0, simplicial, own.count);
-  find(simplicial, count, 0);
-}
-
-/// What is known, raised by what a normal that differs from the one it is known for can change.
-void take_highest(const KnownHighest& known, const CertificatePoints& points, std::span<const double> normals,
-                  std::span<const double> own_high, std::span<double> highest) {
-  constexpr double kRoundedUp = 1.0 + 1e-14;
-  for (std::size_t facet = 0; facet < highest.size(); ++facet) {
-    double change = 0.0;
-    for (std::size_t k = 0; k < points.dimension; ++k) {
-      const std::size_t at = facet * points.dimension + k;
-      change += std::abs(normals[at] - known.normals[at]) * points.largest[k];
-    }
-    highest[facet] = std::max(own_high[facet], known.highest[facet] + change * kRoundedUp);
-  }
-}
-
-/// Areas of the merged facets: of the projection of their simplices onto their plane.
-void project_areas(const FacetLayout& layout, const Frame& frame, std::span<const double> normals,
-                   double area_per_determinant, HugeArray<double>& areas) {
-  const std::size_t dimension = frame.dimension, count = layout.facets - layout.simplicial;
-  std::vector<double> directions(count * dimension), lengths(count);
-  map_normals(frame, layout.area_vectors.data(), count, directions.data(), lengths.data());
-  for (std::size_t m = 0; m < count; ++m) {
-    const double* normal = normals.data() + (layout.simplicial + m) * dimension;
-    double cosine = 0.0;
-    for (std::size_t k = 0; k < dimension; ++k) cosine += directions[m * dimension + k] * normal[k];
-    // A facet of simplices without volume has no direction either.
-    areas[layout.simplicial + m] = std::isfinite(cosine) ? lengths[m] * cosine * area_per_determinant : 0.0;
-  }
-}
-
-}  // namespace
-
-std::vector<double> certificate_reference(const Frame& frame) {
-  constexpr double kFar = 4.0;  // extents: two bits of the data's digits are worth a plane at the origin
-  for (std::size_t k = 0; k < frame.dimension; ++k) {
-    const double largest = std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k]));
-    const double extent = frame.column_max[k] - frame.column_min[k];
-    if (extent > 0.0 && largest > kFar * extent) return frame.centre;
-  }
-  return std::vector<double>(frame.dimension, 0.0);
-}
-
-CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
-                                            const std::vector<bool>& wanted, bool is_known) {
-  CertificatePoints result;
-  const std::size_t dimension = points.dimension;
-  result.dimension = dimension;
-  result.reference = certificate_reference(frame);
-  result.largest_input.resize(dimension);
-  result.largest.assign(dimension, 0.0);
-  for (std::size_t k = 0; k < dimension; ++k) {
-    result.largest_input[k] = std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k]));
-    if (!is_known) continue;
-    result.largest[k] = std::max(std::abs(frame.column_min[k] - result.reference[k]),
-                                 std::abs(frame.column_max[k] - result.reference[k]));
-  }
-  result.row_of_point.assign(points.rows, 0);
-  const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
-  result.rows.reserve(count * dimension);
-  for (std::size_t row = 0; row < points.rows; ++row) {
-    if (!wanted[row]) continue;
-    result.row_of_point[row] = static_cast<std::uint32_t>(result.rows.size() / dimension);
-    for (std::size_t k = 0; k < dimension; ++k) {
-      const double x = points.at(row, k) - result.reference[k];
-      result.rows.push_back(x);
-      result.largest[k] = std::max(result.largest[k], std::abs(x));
-    }
-  }
-  return result;
-}
-
-FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
-                            const CertificatePoints& points, std::span<const double> determinants,
-                            const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
-                            bool certifies) {
-  const std::size_t dimension = frame.dimension;
-  const std::size_t count = layout.facets;
-  FacetTable table;
-  drop_rounding(complex, layout);
-  if (frame.rank == dimension) {
-    table.normals = std::move(complex.planes);
-    map_normals(frame, table.normals.data(), count, table.normals.data());
-    table.normals.discard_from(count * dimension);
-  } else {
-    table.normals = HugeArray<double>(count * dimension);
-    map_normals(frame, complex.planes.data(), count, table.normals.data());
-    complex.planes = HugeArray<double>();
-  }
-  table.offsets = HugeArray<double>(count);
-  table.outer = HugeArray<double>(count);
-  table.inner = HugeArray<double>(count);
-  table.areas = HugeArray<double>(count);
-  const std::span<const double> normals(table.normals.data(), count * dimension);
-  const std::span<double> low(table.inner.data(), count), high(table.areas.data(), count);
-  own_dots(complex, dimension, normals, points.rows, points.row_of_point, low.first(layout.simplicial),
-           high.first(layout.simplicial));
-  merged_dots(complex, layout, points, normals.data(), low, high);
-  const std::span<double> highest(table.outer.data(), count);
-  if (certifies && !known.highest.empty()) {
-    take_highest(known, points, normals, high, highest);
-  } else if (certifies) {
-    find_highest(points, normals, {low, high, frame.rank}, layout.simplicial, highest);
-  } else {
-    std::fill(highest.begin(), highest.end(), HUGE_VAL);
+    std::vector<FurthestPoint> furthest(count_);
+    for (std::size_t facet = 0; facet < count_; ++facet) furthest[facet].dot = table_.areas[facet];
+    FurthestPoints(dimension_, rows, lowest, largest, false).find(normals(0, count_), furthest);
+    for (std::size_t facet = 0; facet < count_; ++facet) table_.outer[facet] = furthest[facet].dot;
   }
 
-  const double volume_per_determinant =
-      1.0 / (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0));
-  constexpr std::size_t kFacetsAtATime = 4096;
-  // Sums are put together in the order of the blocks.
-  std::vector<FacetSums> parts((count + kFacetsAtATime - 1) / kFacetsAtATime);
-  for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
-    FacetSums& part = parts[begin / kFacetsAtATime];
+  /// What is known, raised by what a normal that differs from the one it is known for can change.
+  void take_known(std::size_t begin, std::size_t end) {
+    constexpr double kRoundedUp = 1.0 + 1e-14;
     for (std::size_t facet = begin; facet < end; ++facet) {
-      const std::span<const double> normal = normals.subspan(facet * dimension, dimension);
-      double offset = -(0.5 * low[facet] + 0.5 * high[facet]);
-      double centre = 0.0;
-      for (std::size_t k = 0; k < dimension; ++k)
-        centre += normal[k] * (frame.centre[k] - points.reference[k]);
+      double change = 0.0;
+      for (std::size_t k = 0; k < dimension_; ++k) {
+        const std::size_t at = facet * dimension_ + k;
+        change += std::abs(table_.normals[at] - known_.normals[at]) * points_.largest[k];
+      }
+      table_.outer[facet] = std::max(table_.areas[facet], known_.highest[facet] + change * kRoundedUp);
+    }
+  }
+
+  void finish(std::size_t begin, std::size_t end, FacetSums& part) {
+    // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
+    const double error_per_size = sum_error(dimension_ + 3, 1.0);
+    for (std::size_t facet = begin; facet < end; ++facet) {
+      const std::span<const double> normal = normals(facet, facet + 1);
+      const double lowest = table_.inner[facet], own_highest = table_.areas[facet];
+      const double all_highest = table_.outer[facet], determinant = table_.offsets[facet];
+      double offset = -(0.5 * lowest + 0.5 * own_highest);
+      double centre = 0.0, size = 0.0, size_input = 0.0;
+      for (std::size_t k = 0; k < dimension_; ++k) {
+        centre += normal[k] * (frame_.centre[k] - points_.reference[k]);
+        size += std::abs(normal[k]) * points_.largest[k];
+        size_input += std::abs(normal[k]) * points_.largest_input[k];
+      }
       // The plane midway of a very wide facet may pass below the interior point; the supporting one never
       // does.
-      if (-offset <= centre) offset = -(certifies ? std::max(high[facet], highest[facet]) : high[facet]);
+      if (-offset <= centre) offset = -(certifies_ ? std::max(own_highest, all_highest) : own_highest);
       const double height = -offset - centre;
-      double size = std::abs(offset), size_input = std::abs(offset);
-      for (std::size_t k = 0; k < dimension; ++k) {
-        size += std::abs(normal[k]) * points.largest[k];
-        size_input += std::abs(normal[k]) * points.largest_input[k];
-      }
-      // One subtraction for each coordinate, dimension products, one sum with the offset, one spare.
-      const double error = sum_error(dimension + 3, size);
-      const double per_unit = 1.0 / unit.input_per_unit(normal);
-      const double outer_explicit = std::max(0.0, highest[facet] + offset + error);
-      const double of_scaled_hull = (1.0 + covered.gauge) * outer_explicit + covered.gauge * height;
+      size += std::abs(offset);
+      size_input += std::abs(offset);
+      const double error = error_per_size * size;
+      const double per_unit = 1.0 / unit_.input_per_unit(normal);
+      const double outer_explicit = std::max(0.0, all_highest + offset + error);
+      const double of_scaled_hull = (1.0 + covered_.gauge) * outer_explicit + covered_.gauge * height;
       const double of_ball =
-          std::max(outer_explicit, support_of_ball(frame, normal, covered) - height + error);
+          std::max(outer_explicit, support_of_ball(frame_, normal, covered_) - height + error);
       const double outer = std::min(of_scaled_hull, of_ball) * per_unit;
-      const double inner = std::min(0.0, low[facet] + offset - error) * per_unit;
-      table.offsets[facet] = offset;
-      table.outer[facet] = outer;
-      table.inner[facet] = inner;
+      const double inner = std::min(0.0, lowest + offset - error) * per_unit;
+      table_.offsets[facet] = offset;
+      table_.outer[facet] = outer;
+      table_.inner[facet] = inner;
       part.max_outer = std::max(part.max_outer, outer);
       part.min_inner = std::min(part.min_inner, inner);
       part.max_width = std::max(part.max_width, outer - inner);
-      part.roundoff = std::max(part.roundoff, sum_error(dimension + 3, size + size_input) * per_unit);
+      part.roundoff = std::max(part.roundoff, error_per_size * (size + size_input) * per_unit);
 
-      const double cone = determinants[facet] * volume_per_determinant;
+      const double cone = determinant * volume_per_determinant_;
       part.volume += cone;
-      if (facet >= layout.simplicial) continue;
-      table.areas[facet] = static_cast<double>(frame.rank) * cone / height;
-      part.area += table.areas[facet];
+      if (facet >= layout_.simplicial) continue;
+      table_.areas[facet] = static_cast<double>(frame_.rank) * cone / height;
+      part.area += table_.areas[facet];
     }
-  });
-  for (const FacetSums& part : parts) {
-    table.max_outer = std::max(table.max_outer, part.max_outer);
-    table.min_inner = std::min(table.min_inner, part.min_inner);
-    table.max_width = std::max(table.max_width, part.max_width);
-    table.roundoff = std::max(table.roundoff, part.roundoff);
-    table.volume += part.volume;
-    table.area += part.area;
   }
-  const double area_per_determinant = static_cast<double>(frame.rank) * volume_per_determinant;
-  project_areas(layout, frame, normals, area_per_determinant, table.areas);
-  table.surface = table.area + layout.merged_surface * area_per_determinant;
-  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet)
-    table.area += table.areas[facet];
-  return table;
+
+  void sum_up() {
+    // In the order of the blocks.
+    for (const FacetSums& part : parts_) {
+      table_.max_outer = std::max(table_.max_outer, part.max_outer);
+      table_.min_inner = std::min(table_.min_inner, part.min_inner);
+      table_.max_width = std::max(table_.max_width, part.max_width);
+      table_.roundoff = std::max(table_.roundoff, part.roundoff);
+      table_.volume += part.volume;
+      table_.area += part.area;
+    }
+    const double area_per_determinant = static_cast<double>(frame_.rank) * volume_per_determinant_;
+    project_areas(area_per_determinant);
+    table_.surface = table_.area + layout_.merged_surface * area_per_determinant;
+    for (std::size_t facet = layout_.simplicial; facet < count_; ++facet) table_.area += table_.areas[facet];
+  }
+
+  /// Areas of the merged facets: of the projection of their simplices onto their plane.
+  void project_areas(double area_per_determinant) {
+    const std::size_t count = count_ - layout_.simplicial;
+    std::vector<double> directions(count * dimension_), lengths(count);
+    to_input_.map(layout_.area_vectors.data(), count, directions.data(), lengths.data());
+    for (std::size_t m = 0; m < count; ++m) {
+      const std::size_t facet = layout_.simplicial + m;
+      const std::span<const double> normal = normals(facet, facet + 1);
+      double cosine = 0.0;
+      for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[m * dimension_ + k] * normal[k];
+      // A facet of simplices without volume has no direction either.
+      table_.areas[facet] = std::isfinite(cosine) ? lengths[m] * cosine * area_per_determinant : 0.0;
+    }
+  }
+
+  SimplicialComplex& complex_;
+  const FacetLayout& layout_;
+  const Frame& frame_;
+  const CertificatePoints& points_;
+  const LengthUnit& unit_;
+  const CoveredPoints& covered_;
+  const KnownHighest& known_;
+  bool certifies_;
+  std::size_t dimension_, count_;
+  NormalMap to_input_;
+  double volume_per_determinant_;
+  std::optional<PointGroups> groups_;
+  std::vector<FacetSums> parts_;
+  FacetTable table_;
+};
+
+}  // namespace
+
+FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
+                            const CertificatePoints& points, HugeArray<double> determinants,
+                            const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
+                            bool certifies) {
+  return TableMaker(complex, layout, frame, points, std::move(determinants), unit, covered, known, certifies)
+      .run();
 }
 
 }  // namespace ndhull

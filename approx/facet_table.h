@@ -6,39 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "approx/certificate_points.h"
 #include "approx/coplanar_merge.h"
 #include "approx/length_unit.h"
 #include "core/frame.h"
 #include "core/huge_array.h"
-#include "core/points.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
-
-/// Points that facets are certified against, relative to the reference point.
-struct CertificatePoints {
-  std::size_t dimension = 0;
-  std::vector<double> reference;
-  std::vector<double> rows;                 ///< count x dimension: x - reference
-  std::vector<double> largest;              ///< per column: largest |x - reference|
-  std::vector<double> largest_input;        ///< per column: largest |x|
-  std::vector<std::uint32_t> row_of_point;  ///< for the points that are in `rows`
-};
 
 /// How far all points to be certified reach along normals that are those of the facets, or hardly differ.
 struct KnownHighest {
   std::vector<double> normals;  ///< one row a facet, of `dimension` numbers
   std::vector<double> highest;  ///< largest product with x - reference; empty: nothing is known
 };
-
-/// The origin, unless the data lie further from it than four times their extent: then planes stated at the
-/// origin would lose the digits that the data have, and it is the frame's centre.
-std::vector<double> certificate_reference(const Frame& frame);
-
-/// `wanted`: one flag a point of the input; all vertices are. `is_known`: how far the points reach is known,
-/// and these are not all; then `largest` is that of the whole input.
-CertificatePoints gather_certificate_points(const PointView& points, const Frame& frame,
-                                            const std::vector<bool>& wanted, bool is_known);
 
 /// One row a facet.
 struct FacetTable {
@@ -62,8 +43,10 @@ struct CoveredPoints {
 /// Makes planes, certificates and areas of all facets. Unless it `certifies`, outer offsets are +infinity.
 /// `known`: of each facet, or empty; then the points are searched.
 ///
-/// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). The planes are
-///           consumed: turned into the normals in place where the shapes allow.
+/// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). Both are
+/// consumed:
+///           the planes are turned into the normals in place where the shapes allow, the offsets lie where
+///           the determinants were.
 /// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on
 /// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
@@ -72,7 +55,7 @@ struct CoveredPoints {
 /// Cost      at most facets x points x dimension fused multiply-adds (core/highest_dots.h,
 ///           core/furthest_points.h); where the products are known, dimension for each facet.
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
-                            const CertificatePoints& points, std::span<const double> determinants,
+                            const CertificatePoints& points, HugeArray<double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
                             bool certifies);
 

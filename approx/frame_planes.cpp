@@ -3,12 +3,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <vector>
+#include <cstdint>
+#include <limits>
 
 #include "approx/orthonormal.h"
-#include "core/blocks.h"
 #include "core/dense_views.h"
+#include "core/dimension_switch.h"
 
 namespace ndhull {
 
@@ -20,36 +22,77 @@ double volume_scale(const Frame& frame) {
   return std::abs(RowMatrix(map * basis.transpose()).determinant()) / std::sqrt(spanned);
 }
 
-void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out, double* lengths) {
-  const std::size_t rank = frame.rank, dimension = frame.dimension;
-  RowMatrix to_input = as_rows(frame.map, dimension);
-  if (rank < dimension) {  // keep the part of the normal that lies in the subspace
-    const auto basis = as_rows(frame.basis, dimension);
+namespace {
+
+/// The power of two at or below a positive number; of subnormal ones, and of 0, the smallest normal number.
+double power_below(double x) {
+  constexpr std::uint64_t kExponent = 0x7FF0'0000'0000'0000u;
+  return std::max(std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & kExponent),
+                  std::numeric_limits<double>::min());
+}
+
+/// Scales a row of D numbers (0: of `width`) to length 1 and returns the length that it had.
+template <std::size_t D>
+double normalise(double* row, std::size_t width) {
+  if (D > 0) width = D;
+  // By a power of two first: columns of very different scale can overflow the squares.
+  double largest = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < width; ++k) largest = std::max(largest, std::abs(row[k]));
+  const double power = power_below(largest), inverse = 1.0 / power;
+  for (std::size_t k = 0; k < width; ++k) {
+    row[k] *= inverse;
+    square += row[k] * row[k];
+  }
+  const double length = std::sqrt(square);
+  for (std::size_t k = 0; k < width; ++k) row[k] /= length;
+  return power * length;
+}
+
+}  // namespace
+
+NormalMap::NormalMap(const Frame& frame)
+    : rank_(frame.rank),
+      dimension_(frame.dimension),
+      is_diagonal_(frame.is_diagonal && frame.rank == frame.dimension) {
+  RowMatrix to_input = as_rows(frame.map, dimension_);
+  if (rank_ < dimension_) {  // keep the part of the normal that lies in the subspace
+    const auto basis = as_rows(frame.basis, dimension_);
     const RowMatrix gram = basis * basis.transpose();
     to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
   }
-  constexpr std::size_t kBlock = 256;
-  for_each_block(count, kBlock, [&](std::size_t begin, std::size_t end) {
-    const std::size_t used = end - begin;
-    RowMatrix block;
-    const Eigen::Map<const RowMatrix> in(planes + begin * rank, static_cast<Eigen::Index>(used),
-                                         static_cast<Eigen::Index>(rank));
-    if (frame.is_diagonal && rank == dimension) {
-      block = in * to_input.diagonal().asDiagonal();
-    } else {
-      block.noalias() = in * to_input;
+  to_input_.assign(to_input.data(), to_input.data() + to_input.size());
+  if (!is_diagonal_) return;
+  for (std::size_t k = 0; k < dimension_; ++k) diagonal_.push_back(to_input_[k * dimension_ + k]);
+}
+
+template <std::size_t D>
+void NormalMap::scale_rows(const double* planes, std::size_t count, double* out, double* lengths) const {
+  for (std::size_t row = 0; row < count; ++row) {
+    double* const normal = out + row * D;
+    for (std::size_t k = 0; k < D; ++k) normal[k] = planes[row * D + k] * diagonal_[k];
+    const double length = normalise<D>(normal, D);
+    if (lengths != nullptr) lengths[row] = length;
+  }
+}
+
+void NormalMap::map(const double* planes, std::size_t count, double* out, double* lengths) const {
+  if (is_diagonal_) {
+    call_with_dimension<1, kMaxRank>(
+        dimension_, [&](auto d) { scale_rows<decltype(d)::value>(planes, count, out, lengths); });
+    return;
+  }
+  constexpr std::size_t kRows = 256;
+  const auto to_input = as_rows(to_input_, dimension_);
+  RowMatrix block;
+  for (std::size_t begin = 0; begin < count; begin += kRows) {
+    const std::size_t used = std::min(kRows, count - begin);
+    block.noalias() = as_rows({planes + begin * rank_, used * rank_}, rank_) * to_input;
+    std::copy_n(block.data(), used * dimension_, out + begin * dimension_);
+    for (std::size_t row = begin; row < begin + used; ++row) {
+      const double length = normalise<0>(out + row * dimension_, dimension_);
+      if (lengths != nullptr) lengths[row] = length;
     }
-    for (std::size_t row = 0; row < used; ++row) {
-      const auto at = static_cast<Eigen::Index>(row);
-      // Scaled first: columns of very different scale can overflow the squares.
-      const double largest = block.row(at).lpNorm<Eigen::Infinity>();
-      block.row(at) /= largest;
-      const double length = block.row(at).norm();
-      block.row(at) /= length;
-      if (lengths != nullptr) lengths[begin + row] = largest * length;
-      std::copy_n(block.row(at).data(), dimension, out + (begin + row) * dimension);
-    }
-  });
+  }
 }
 
 std::vector<double> find_subspace_equations(const Frame& frame) {

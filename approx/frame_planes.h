@@ -12,12 +12,25 @@ namespace ndhull {
 double volume_scale(const Frame& frame);
 
 /// Unit normals in input coordinates of planes in the frame; of flat data, normals that lie in the subspace.
-///
-/// Shapes   planes: count x rank. out: count x dimension; the same memory when rank equals dimension.
-/// lengths  count numbers, or null: the length of the normal before it was made a unit one, which is one over
-///          the distance [input units] of the plane a.y = 1 from the frame's centre.
-void map_normals(const Frame& frame, const double* planes, std::size_t count, double* out,
-                 double* lengths = nullptr);
+class NormalMap {
+ public:
+  explicit NormalMap(const Frame& frame);
+
+  /// Shapes   planes: count x rank. out: count x dimension; the same memory when rank equals dimension.
+  /// lengths  count numbers, or null: the length of the normal before it was made a unit one, which is one
+  ///          over the distance [input units] of the plane a.y = 1 from the frame's centre.
+  /// Cost     rank x dimension multiply-adds a plane; dimension where the frame only scales the axes.
+  void map(const double* planes, std::size_t count, double* out, double* lengths = nullptr) const;
+
+ private:
+  template <std::size_t D>
+  void scale_rows(const double* planes, std::size_t count, double* out, double* lengths) const;
+
+  std::size_t rank_, dimension_;
+  bool is_diagonal_;
+  std::vector<double> to_input_;  // rank x dimension
+  std::vector<double> diagonal_;  // of it, when there is nothing else
+};
 
 /// Rows normal, offset of dimension - rank independent equations normal . x + offset = 0 of the subspace that
 /// the data lie in; empty when that is the whole space.

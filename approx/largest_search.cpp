@@ -190,11 +190,12 @@ void LargestSearch::add_bounding() {
   const std::vector<double> equations = find_subspace_equations(frame);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> map(
       frame.map.data(), static_cast<Eigen::Index>(frame.rank), static_cast<Eigen::Index>(frame.dimension));
+  const NormalMap to_input(frame);
   std::vector<double> normals;
   const auto add_normal = [&](std::uint32_t id) {
     std::vector<double> plane = search_.geometry_of(id).plane;
     normals.resize(normals.size() + frame.dimension);
-    map_normals(frame, plane.data(), 1, normals.data() + normals.size() - frame.dimension);
+    to_input.map(plane.data(), 1, normals.data() + normals.size() - frame.dimension);
   };
   for (const std::uint32_t id : largest_) add_normal(id);
   std::vector<std::uint32_t> closing;

@@ -1,6 +1,7 @@
 #include "approx/length_unit.h"
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "approx/frame_planes.h"
 #include "approx/orthonormal.h"
@@ -34,6 +35,12 @@ std::vector<double> LengthUnit::gradient(std::span<const double> normal) const {
 
 double LengthUnit::input_per_unit(std::span<const double> normal) const {
   if (extents_.empty()) return 1.0;
+  if (directions_.empty()) {  // the most usual case, without memory of its own
+    double square = 0.0;
+    for (std::size_t k = 0; k < normal.size(); ++k)
+      square += normal[k] * extents_[k] * (normal[k] * extents_[k]);
+    return std::sqrt(square);
+  }
   const std::vector<double> scaled = gradient(normal);
   return Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size())).norm();
 }
@@ -42,7 +49,7 @@ std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit) 
   const std::size_t rank = frame.rank;
   std::vector<double> axes(rank * rank, 0.0), normals(rank * frame.dimension), lengths(rank);
   for (std::size_t i = 0; i < rank; ++i) axes[i * rank + i] = 1.0;
-  map_normals(frame, axes.data(), rank, normals.data(), lengths.data());
+  NormalMap(frame).map(axes.data(), rank, normals.data(), lengths.data());
   Eigen::MatrixXd gradients;
   for (std::size_t i = 0; i < rank; ++i) {
     const std::vector<double> column = unit.gradient({normals.data() + i * frame.dimension, frame.dimension});

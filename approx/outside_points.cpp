@@ -98,7 +98,7 @@ void OutsideSearch::search_new_planes() {
     std::fill(furthest.begin(), furthest.end(), FurthestPoint{-HUGE_VAL});
     const std::vector<double> planes = std::move(normals);
     normals.resize(rows.size() * dimension_);
-    map_normals(growth_.frame(), planes.data(), rows.size(), normals.data());
+    NormalMap(growth_.frame()).map(planes.data(), rows.size(), normals.data());
   }
   furthest_->find(normals, furthest);
   for (std::size_t i = 0; i < rows.size(); ++i) above_[rows[i]] = above_row(rows[i], furthest[i]);

@@ -17,10 +17,11 @@ PlaneCertificate certify_planes(const PointView& points, const Frame& frame,
       gather_certificate_points(points, frame, std::vector<bool>(points.rows, true), false);
   PlaneCertificate result;
   result.reference = all.reference;
+  const NormalMap to_input(frame);
   std::vector<double> normals(facets.size() * dimension), highest(facets.size());
   for (std::size_t row = 0; row < facets.size(); ++row) {
     std::vector<double> plane = facets[row].plane;
-    map_normals(frame, plane.data(), 1, normals.data() + row * dimension);
+    to_input.map(plane.data(), 1, normals.data() + row * dimension);
   }
   constexpr std::size_t kFacetsAtATime = 16;
   for_each_block(facets.size(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {

@@ -45,7 +45,7 @@ FacetGeometry::FacetGeometry(const RayShooter& shooter)
   const RowMatrix identity = RowMatrix::Identity(rank, rank);
   std::vector<double> lengths(frame.rank);
   to_input_.resize(rank, static_cast<Index>(frame.dimension));
-  map_normals(frame, identity.data(), frame.rank, to_input_.data(), lengths.data());
+  NormalMap(frame).map(identity.data(), frame.rank, to_input_.data(), lengths.data());
   for (Index row = 0; row < rank; ++row) to_input_.row(row) *= lengths[static_cast<std::size_t>(row)];
 }
 

@@ -78,25 +78,23 @@ void max_dots_of(std::size_t dimension, std::span<const double> normals, std::sp
 }
 
 template <std::size_t D>
-void own_dots_of(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-                 std::span<const double> points, std::span<const std::uint32_t> row_of_point,
-                 std::span<double> low, std::span<double> high) {
+void own_dots_of(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
+                 std::span<const double> normals, std::span<const double> points,
+                 std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high) {
   const std::size_t width = D > 0 ? D : dimension;
-  for_each_block(low.size(), kSimplicesInBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const double* normal = normals.data() + row * width;
-      double smallest = HUGE_VAL, largest = -HUGE_VAL;
-      for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
-        const double* point = points.data() + std::size_t{row_of_point[id.value]} * width;
-        double dot = 0.0;
-        for (std::size_t k = 0; k < width; ++k) dot = __builtin_fma(normal[k], point[k], dot);
-        smallest = std::min(smallest, dot);
-        largest = std::max(largest, dot);
-      }
-      low[row] = smallest;
-      high[row] = largest;
+  for (std::size_t row = 0; row < low.size(); ++row) {
+    const double* normal = normals.data() + row * width;
+    double smallest = HUGE_VAL, largest = -HUGE_VAL;
+    for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(first + row)})) {
+      const double* point = points.data() + std::size_t{row_of_point[id.value]} * width;
+      double dot = 0.0;
+      for (std::size_t k = 0; k < width; ++k) dot = __builtin_fma(normal[k], point[k], dot);
+      smallest = std::min(smallest, dot);
+      largest = std::max(largest, dot);
     }
-  });
+    low[row] = smallest;
+    high[row] = largest;
+  }
 }
 
 // Neighbours are fetched some simplices ahead: they lie anywhere in memory.
@@ -244,13 +242,14 @@ void max_dots_any(std::size_t dimension, std::span<const double> normals, std::s
                                    [&](auto d) { max_dots_of<d>(dimension, normals, points, max_dot); });
 }
 
-void own_dots_any(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-                  std::span<const double> points, std::span<const std::uint32_t> row_of_point,
-                  std::span<double> low, std::span<double> high) {
+void own_dots_any(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
+                  std::span<const double> normals, std::span<const double> points,
+                  std::span<const std::uint32_t> row_of_point, std::span<double> low,
+                  std::span<double> high) {
   if (dimension > kMaxRank)
-    return own_dots_of<0>(complex, dimension, normals, points, row_of_point, low, high);
+    return own_dots_of<0>(complex, first, dimension, normals, points, row_of_point, low, high);
   call_with_dimension<1, kMaxRank>(dimension, [&](auto d) {
-    own_dots_of<d>(complex, dimension, normals, points, row_of_point, low, high);
+    own_dots_of<d>(complex, first, dimension, normals, points, row_of_point, low, high);
   });
 }
 
@@ -282,10 +281,10 @@ void max_dots(std::size_t dimension, std::span<const double> normals, std::span<
   HWY_DYNAMIC_DISPATCH(max_dots_any)(dimension, normals, points, max_dot);
 }
 
-void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-              std::span<const double> points, std::span<const std::uint32_t> row_of_point,
-              std::span<double> low, std::span<double> high) {
-  HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, dimension, normals, points, row_of_point, low, high);
+void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
+              std::span<const double> normals, std::span<const double> points,
+              std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high) {
+  HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, first, dimension, normals, points, row_of_point, low, high);
 }
 
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,

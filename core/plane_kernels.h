@@ -21,13 +21,14 @@ namespace ndhull {
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot);
 
-/// Smallest and largest dot product of each of the first simplices' normals with their own vertices.
+/// Smallest and largest dot product of the normals of simplices `first` and on with their own vertices.
 ///
-/// Shapes  normals: rows x dimension; points: any number of rows x dimension; row_of_point: the row of each
+/// Shapes  normals: rows x dimension, from that simplex on; points: any number of rows x dimension;
+/// row_of_point: the row of each
 ///         PointId in `points`; low, high: one a simplex, for as many as wanted. Error as above.
-void own_dots(const SimplicialComplex& complex, std::size_t dimension, std::span<const double> normals,
-              std::span<const double> points, std::span<const std::uint32_t> row_of_point,
-              std::span<double> low, std::span<double> high);
+void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
+              std::span<const double> normals, std::span<const double> points,
+              std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high);
 
 /// Marks both sides of the flat ridges of some simplices: those across which the opposite vertex of either
 /// side is less than `tolerance` (a gauge) below the other side's plane.
