@@ -67,19 +67,20 @@ NormalMap::NormalMap(const Frame& frame)
 
 template <std::size_t D>
 void NormalMap::scale_rows(const double* planes, std::size_t count, double* out, double* lengths) const {
+  const std::size_t width = D > 0 ? D : dimension_;
   for (std::size_t row = 0; row < count; ++row) {
-    double* const normal = out + row * D;
-    for (std::size_t k = 0; k < D; ++k) normal[k] = planes[row * D + k] * diagonal_[k];
-    const double length = normalise<D>(normal, D);
+    double* const normal = out + row * width;
+    for (std::size_t k = 0; k < width; ++k) normal[k] = planes[row * width + k] * diagonal_[k];
+    const double length = normalise<D>(normal, width);
     if (lengths != nullptr) lengths[row] = length;
   }
 }
 
 void NormalMap::map(const double* planes, std::size_t count, double* out, double* lengths) const {
   if (is_diagonal_) {
-    call_with_dimension<1, kMaxRank>(
+    if (dimension_ > kMaxRank) return scale_rows<0>(planes, count, out, lengths);
+    return call_with_dimension<1, kMaxRank>(
         dimension_, [&](auto d) { scale_rows<decltype(d)::value>(planes, count, out, lengths); });
-    return;
   }
   constexpr std::size_t kRows = 256;
   const auto to_input = as_rows(to_input_, dimension_);
