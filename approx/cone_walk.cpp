@@ -1,9 +1,10 @@
 #include "approx/cone_walk.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "core/dense_solve.h"
 
 namespace ndhull {
 namespace {
@@ -50,7 +51,7 @@ bool ConeWalk::refresh(const FramePoints& points) {
   const auto rank = static_cast<Index>(points.rank);
   RowMatrix rows(rank, rank);
   for (Index k = 0; k < rank; ++k) rows.row(k) = points.point(basis_[static_cast<std::size_t>(k)]);
-  const Eigen::PartialPivLU<RowMatrix> factors(rows);
+  const SquareFactors factors(rows);
   inverse_ = factors.inverse().transpose();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
   plane_ = factors.solve(ones);

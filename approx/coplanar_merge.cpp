@@ -1,12 +1,12 @@
 #include "approx/coplanar_merge.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "approx/flat_facets.h"
 #include "core/blocks.h"
+#include "core/dense_solve.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -145,7 +145,7 @@ class Merger {
     const Vector ones = Vector::Ones(rows.rows());
     Vector residual = ones - rows * cluster.plane;
     const double before = residual.lpNorm<Eigen::Infinity>();
-    const Vector fitted = cluster.plane + rows.colPivHouseholderQr().solve(residual);
+    const Vector fitted = cluster.plane + PivotedFactors(rows).solve(residual);
     residual = ones - rows * fitted;
     if (residual.lpNorm<Eigen::Infinity>() < before) cluster.plane = fitted;
   }

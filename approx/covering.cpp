@@ -1,11 +1,11 @@
 #include "approx/covering.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "approx/boundedness.h"
+#include "core/dense_solve.h"
 #include "core/ids.h"
 
 namespace ndhull {
@@ -23,7 +23,7 @@ std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, 
       const double* y = coordinates + std::size_t{frame.simplex[from].value} * space.rank();
       rows.row(static_cast<Eigen::Index>(row++)) = Eigen::Map<const Eigen::RowVectorXd>(y, rank);
     }
-    const Eigen::VectorXd plane = rows.partialPivLu().solve(Eigen::VectorXd::Ones(rank));
+    const Eigen::VectorXd plane = SquareFactors(rows).solve(Eigen::VectorXd::Ones(rank));
     normals.emplace_back(space.rank());
     space.normal_of({plane.data(), space.rank()}, normals.back().data());
   }

@@ -1,7 +1,8 @@
 #include "approx/even_normals.h"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "core/dense_solve.h"
 
 namespace ndhull {
 
@@ -19,13 +20,11 @@ EvenNormals spread_evenly(const RowMatrix& rows) {
     return even;
   }
   const Eigen::MatrixXd scaled = rows * lengths.cwiseInverse().asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(scaled);
-  factors.setThreshold(1e-14 * static_cast<double>(rank));
-  const Eigen::MatrixXd permutation = factors.colsPermutation();
+  const PivotedFactors factors(scaled, 1e-14 * static_cast<double>(rank));
+  const Eigen::MatrixXd permutation = factors.permutation();
   const Eigen::Index found = factors.rank();
   Eigen::MatrixXd upper = Eigen::MatrixXd::Identity(rank, rank);
-  upper.topRows(std::min(found, rows.rows())) =
-      factors.matrixR().topRows(std::min(found, rows.rows())).triangularView<Eigen::Upper>();
+  upper.topRows(std::min(found, rows.rows())) = factors.upper(std::min(found, rows.rows()));
   const Eigen::MatrixXd inverse =
       upper.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(rank, rank));
   even.map = lengths.cwiseInverse().asDiagonal() * permutation * inverse;

@@ -1,7 +1,6 @@
 #include "approx/frame_planes.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "approx/orthonormal.h"
+#include "core/dense_solve.h"
 #include "core/dense_views.h"
 #include "core/dimension_switch.h"
 
@@ -16,10 +16,10 @@ namespace ndhull {
 
 double volume_scale(const Frame& frame) {
   const auto map = as_rows(frame.map, frame.dimension);
-  if (frame.rank == frame.dimension) return std::abs(RowMatrix(map).determinant());
+  if (frame.rank == frame.dimension) return std::abs(SquareFactors(map).determinant());
   const auto basis = as_rows(frame.basis, frame.dimension);
-  const double spanned = RowMatrix(basis * basis.transpose()).determinant();
-  return std::abs(RowMatrix(map * basis.transpose()).determinant()) / std::sqrt(spanned);
+  const double spanned = SquareFactors(basis * basis.transpose()).determinant();
+  return std::abs(SquareFactors(map * basis.transpose()).determinant()) / std::sqrt(spanned);
 }
 
 namespace {

@@ -1,6 +1,5 @@
 #include "approx/halfspace_region.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "approx/even_normals.h"
 #include "core/column_table.h"
+#include "core/dense_solve.h"
 #include "core/dense_views.h"
 #include "core/error.h"
 
@@ -35,12 +35,6 @@ struct LocalPlanes {
   std::vector<std::uint32_t> ids;
   std::vector<double> lengths;  // of the halfspace's unit normal in these coordinates
 };
-
-/// Of several the shortest. One function for all uses: Eigen's decomposition takes seconds to compile for
-/// each.
-VectorXd solve_least_squares(const MatrixXd& columns, const VectorXd& right_side) {
-  return columns.completeOrthogonalDecomposition().solve(right_side);
-}
 
 class RegionFinder {
  public:
@@ -264,10 +258,8 @@ class RegionFinder {
       heights[k] = -halfspaces_.distance(id, as_span(point_)) / inside.norm();
     }
     point_ += region_.directions * solve_least_squares(normals.transpose(), heights);
-    Eigen::ColPivHouseholderQR<MatrixXd> factors(normals);
-    factors.setThreshold(kParallel);
-    const MatrixXd q = factors.householderQ() * MatrixXd::Identity(rank, rank);
-    region_.directions = region_.directions * q.rightCols(rank - factors.rank());
+    const PivotedFactors factors(normals, kParallel);
+    region_.directions = region_.directions * factors.q().rightCols(rank - factors.rank());
     std::vector<WeightedHalfspace> all = lifted(tight);
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.halfspace < b.halfspace; });
     equation_weights_ = std::move(all);

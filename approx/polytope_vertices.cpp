@@ -1,11 +1,10 @@
 #include "approx/polytope_vertices.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/dense_solve.h"
 #include "core/dense_views.h"
 
 namespace ndhull {
@@ -118,7 +117,7 @@ class VertexPlacer {
   std::vector<Determination> determinations() const {
     std::vector<Determination> widest(count_);
     for (std::size_t row = 0; row < polytope_.vertex_of.size(); ++row) {
-      const double volume = std::abs(normals_of_simplex(row).partialPivLu().determinant());
+      const double volume = std::abs(SquareFactors(normals_of_simplex(row)).determinant());
       Determination& best = widest[polytope_.vertex_of[row]];
       if (volume > best.volume) best = {volume, row};
     }
@@ -155,7 +154,7 @@ class VertexPlacer {
    private:
     const VertexPlacer& placer_;
     const double* position_;
-    Eigen::PartialPivLU<MatrixXd> factors_;
+    SquareFactors factors_;
     VectorXd roundoff_;
   };
 
@@ -271,7 +270,7 @@ class VertexPlacer {
             as_vector(halfspaces_.normal(id)).transpose() * region_.directions / halfspaces_.length(id);
         distances[row] = halfspaces_.distance(id, {x, dimension_});
       }
-      const VectorXd step = region_.directions * normals.colPivHouseholderQr().solve(distances);
+      const VectorXd step = region_.directions * PivotedFactors(normals).solve(distances);
       const VectorXd moved = as_vector({x, dimension_}) - step;
       double moved_excess = 0.0;
       const double moved_largest = residual(cluster, moved.data(), moved_excess);

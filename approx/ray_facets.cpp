@@ -3,14 +3,13 @@
 // below the plane in input units the area is rank cone / h.
 #include "approx/ray_facets.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "approx/frame_planes.h"
 #include "approx/hull.h"
 #include "approx/orthonormal.h"
+#include "core/dense_solve.h"
 #include "core/dense_views.h"
 
 namespace ndhull {
@@ -75,7 +74,7 @@ double FacetGeometry::area_per_determinant(const std::vector<double>& plane) con
 std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& points) const {
   const RowMatrix rows = rows_of(shooter_.points(), points);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.rows());
-  const Eigen::ColPivHouseholderQR<RowMatrix> factors(rows);
+  const PivotedFactors factors(rows);
   Eigen::VectorXd plane = factors.solve(ones);
   plane += factors.solve(ones - rows * plane);  // one step of refinement
   return {plane.data(), plane.data() + plane.size()};
@@ -89,8 +88,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   facet.points = on_plane;
   facet.vertices = on_plane;
   facet.plane = fit_plane(on_plane);
-  const double simplex_determinant =
-      std::abs(Eigen::PartialPivLU<RowMatrix>(rows_of(points, basis)).determinant());
+  const double simplex_determinant = std::abs(SquareFactors(rows_of(points, basis)).determinant());
   facet.area = simplex_determinant * area_per_determinant(facet.plane);
   if (on_plane.size() == rank) return facet;
   if (rank - 1 > kMaxRank) {
@@ -149,7 +147,7 @@ std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
       for (std::size_t k = 1; k < vertices.size(); ++k) {
         edges.row(static_cast<Index>(k) - 1) = coordinates_of(vertices[k]) - coordinates_of(vertices[0]);
       }
-      const double size = (edges * edges.transpose()).determinant();
+      const double size = SquareFactors(edges * edges.transpose()).determinant();
       if (size <= largest) continue;
       largest = size;
       task.basis.clear();

@@ -1,13 +1,12 @@
 #include "approx/ray_shooting.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "core/blocks.h"
+#include "core/dense_solve.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
@@ -103,7 +102,7 @@ std::vector<std::uint32_t> RayShooter::find_centre(const PointView& points) {
     for (Index row = 0, from = 0; from <= simplex.rows(); ++from) {
       if (from != omitted) facet.row(row++) = simplex.col(from).transpose();
     }
-    const Eigen::VectorXd plane = facet.partialPivLu().solve(Eigen::VectorXd::Ones(simplex.rows()));
+    const Eigen::VectorXd plane = SquareFactors(facet).solve(Eigen::VectorXd::Ones(simplex.rows()));
     longest = std::max(longest, plane.norm());
   }
   inner_radius_ = 0.5 * (1.0 - kCentreShare) / longest;

@@ -1,10 +1,10 @@
 #include "core/column_simplex.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/dense_solve.h"
 #include "core/dense_views.h"
 #include "core/error.h"
 
@@ -135,8 +135,8 @@ ColumnSimplex::Vector ColumnSimplex::values_of(const Vector& right_side) const {
 }
 
 bool ColumnSimplex::refactor() {
-  const Eigen::PartialPivLU<Matrix> factors(columns_);
-  if (!(factors.rcond() > kSingular)) return false;
+  const SquareFactors factors(columns_);
+  if (!(factors.reciprocal_condition() > kSingular)) return false;
   inverse_ = factors.inverse();
   values_ = values_of(rhs_);
   const double roundoff = kValueRoundoff * values_.cwiseAbs().maxCoeff();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/dense_solve.h"
 #include "core/error.h"
 #include "core/greedy_simplex.h"
 
@@ -79,7 +80,7 @@ double worst_shape(const Matrix& vertices, double reach = 0.0) {
     for (Eigen::Index row = 0, from = 0; from <= rank; ++from) {
       if (from != omitted) facet.row(row++) = centred.row(from);
     }
-    const Vector dual = facet.partialPivLu().solve(Vector::Ones(rank));
+    const Vector dual = SquareFactors(facet).solve(Vector::Ones(rank));
     worst = std::max(worst, dual.norm() * reach);
     if (!std::isfinite(worst)) return std::numeric_limits<double>::infinity();
   }

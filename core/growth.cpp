@@ -2,12 +2,12 @@
 
 #include <unistd.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "core/blocks.h"
+#include "core/dense_solve.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -30,7 +30,7 @@ void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, doub
     const double* point = work.points + std::size_t{vertices[static_cast<std::size_t>(i)].value} * work.rank;
     for (Eigen::Index k = 0; k < rank; ++k) rows(i, k) = point[k];
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(rows);
+  const SquareFactors factors(rows);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
   Eigen::VectorXd dual = factors.solve(ones);
   dual += factors.solve(ones - rows * dual);

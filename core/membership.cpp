@@ -1,12 +1,12 @@
 #include "core/membership.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/blocks.h"
+#include "core/dense_solve.h"
 #include "core/membership_kernels.h"
 
 namespace ndhull {
@@ -91,7 +91,7 @@ class Walker {
     }
     const Eigen::Map<const Vector> y(points_ + std::size_t{point.value} * complex_.rank, rank_);
     ConeCoordinates result;
-    result.lambda = columns.partialPivLu().solve(y);
+    result.lambda = SquareFactors(columns).solve(y);
     if (!result.lambda.allFinite()) return result;
     const double positive = result.lambda.cwiseMax(0.0).sum();
     const double negative = (-result.lambda).cwiseMax(0.0).sum();
@@ -138,7 +138,7 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
       rows.row(static_cast<Eigen::Index>(row++)) =
           Eigen::Map<const Eigen::RowVectorXd>(points + std::size_t{simplex[from].value} * rank, size);
     }
-    longest_dual = std::max(longest_dual, rows.partialPivLu().solve(Vector::Ones(size)).norm());
+    longest_dual = std::max(longest_dual, SquareFactors(rows).solve(Vector::Ones(size)).norm());
   }
   // The frame keeps the simplex well shaped (condition about 1e6 at the worst): the solve's error is far
   // below.
