@@ -220,14 +220,15 @@ class Merger {
     const auto in_doubt = [&](PointId id) {
       return id.value < facets_at.size() && facets_at[id.value] != 0 && facets_at[id.value] < enough;
     };
-    for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
+    auto doubts = std::count_if(facets_at.begin(), facets_at.end(),
+                                [&](std::uint32_t count) { return count != 0 && count < enough; });
+    // Most vertices are in so many simplices that a part of all settles it.
+    for (std::uint32_t simplex = 0; simplex < complex_.row_count && doubts > 0; ++simplex) {
       if (is_merged(simplex)) continue;
       for (const PointId id : complex_.vertices(SimplexId{simplex}))
-        if (in_doubt(id)) ++facets_at[id.value];
+        if (in_doubt(id) && ++facets_at[id.value] == enough) --doubts;
     }
-    if (std::none_of(facets_at.begin(), facets_at.end(),
-                     [&](std::uint32_t count) { return count != 0 && count < enough; }))
-      return false;
+    if (doubts == 0) return false;
     bool any = false;
     for (std::uint32_t simplex = 0; simplex < complex_.row_count; ++simplex) {
       if (is_merged(simplex)) continue;

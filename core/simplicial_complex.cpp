@@ -59,14 +59,13 @@ std::vector<RowMove> compact(SimplicialComplex& complex) {
     std::copy_n(complex.planes.data() + last * rank, rank, complex.planes.data() + live * rank);
     std::copy_n(complex.topology.data() + last * 2 * rank, 2 * rank,
                 complex.topology.data() + live * 2 * rank);
-    complex.outside_head[live] = complex.outside_head[last];
     std::swap(complex.state[live], complex.state[last]);
   }
   complex.row_count = live;
   rename_neighbours(complex, new_of_old, moved);
   complex.planes.discard_from(live * rank);
   complex.topology.discard_from(live * 2 * rank);
-  complex.outside_head.discard_from(live);
+  complex.outside_head = HugeArray<std::uint32_t>();
   return moves;
 }
 

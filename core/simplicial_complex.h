@@ -35,7 +35,8 @@ struct SimplicialComplex {
   HugeArray<double> planes;
   HugeArray<std::uint32_t> topology;
   HugeArray<SimplexState> state;
-  HugeArray<std::uint32_t> outside_head;  ///< first point of the outside set + 1, 0 when empty
+  HugeArray<std::uint32_t>
+      outside_head;  ///< first point of the outside set + 1, 0 when empty; none after `compact`
 
   SimplicialComplex() = default;
   SimplicialComplex(std::size_t rank_of_points, std::size_t capacity)
@@ -63,8 +64,9 @@ struct RowMove {
   std::uint32_t from, to;
 };
 
-/// Renumbers the live rows to 0 .. n-1, the last ones to the places of free ones, and gives the rest of the
-/// memory back. Returns the rows that moved. Cost O(rows), 4 bytes a row of scratch.
+/// Growth is over: renumbers the live rows to 0 .. n-1, the last ones to the places of free ones, and gives
+/// the rest of the memory and that of the outside sets back. Returns the rows that moved. Cost O(rows), 4
+/// bytes a row of scratch.
 std::vector<RowMove> compact(SimplicialComplex& complex);
 
 /// Puts the vertices and neighbours of row old_of_new[r] into row r, for all live rows of a compacted
