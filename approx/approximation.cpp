@@ -173,20 +173,39 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   return result;
 }
 
-/// Remembers, for each facet that is wider than `width`, the point that makes it so. Returns those that are
+/// Of facets whose fit has seen the furthest point left out, which one that is.
+void Approximation::find_seen_offenders(const Covering& covering, std::span<const std::uint32_t> facets,
+                                        std::span<FurthestPoint> furthest) {
+  if (facets.empty() || !left_out_tree_) return;
+  std::vector<double> normals;
+  for (const std::uint32_t facet : facets)
+    normals.insert(normals.end(), covering.planes[facet].normal.begin(), covering.planes[facet].normal.end());
+  std::vector<FurthestPoint> found(facets.size());
+  for (FurthestPoint& point : found) point.dot = -HUGE_VAL;
+  find_furthest(*left_out_tree_, normals, found);
+  for (std::size_t i = 0; i < facets.size(); ++i) furthest[facets[i]] = found[i];
+}
+
+/// Remembers, for each facet that is wider than `width`, the point that makes it so, and tells those that are
 /// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
-std::vector<LocatedPoint> Approximation::add_offenders(const Covering& covering, const TrueWidths& widths,
-                                                       double width) {
+Offenders Approximation::add_offenders(const Covering& covering, const TrueWidths& widths, double width) {
   const std::size_t rank = space_->rank(), count = widths.widths.size();
-  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone);
+  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone), seen;
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
     if (covering.facet_of[row] == kNone) continue;
     ++size_of[covering.facet_of[row]];
     row_of[covering.facet_of[row]] = row;
   }
-  std::vector<LocatedPoint> above_simplices;
+  Offenders offenders;
+  std::vector<FurthestPoint> furthest_of = widths.furthest;
+  for (std::uint32_t facet = 0; facet < count; ++facet) {
+    if (widths.widths[facet] <= width) continue;
+    if (size_of[facet] > 1) offenders.widest_slab = std::max(offenders.widest_slab, widths.widths[facet]);
+    if (size_of[facet] == 1 && furthest_of[facet].row == FurthestPoint::kNoRow) seen.push_back(facet);
+  }
+  find_seen_offenders(covering, seen, furthest_of);
   for (std::size_t facet = 0; facet < count; ++facet) {
-    const std::uint32_t furthest = widths.furthest[facet].row;
+    const std::uint32_t furthest = furthest_of[facet].row;
     if (widths.widths[facet] <= width || furthest == FurthestPoint::kNoRow) continue;
     const PointId point = growth_.left_out()[furthest].point;
     extra_.push_back(point);
@@ -195,16 +214,16 @@ std::vector<LocatedPoint> Approximation::add_offenders(const Covering& covering,
     const auto plane = growth_.work().complex.plane(SimplexId{row_of[facet]});
     double gauge = -1.0;
     for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
-    if (gauge > 0.0) above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
+    if (gauge > 0.0) offenders.above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
   }
   const auto by_point = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point < b.point; };
   const auto is_same = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point == b.point; };
-  std::stable_sort(above_simplices.begin(), above_simplices.end(), by_point);
-  above_simplices.erase(std::unique(above_simplices.begin(), above_simplices.end(), is_same),
-                        above_simplices.end());
+  std::vector<LocatedPoint>& above = offenders.above_simplices;
+  std::stable_sort(above.begin(), above.end(), by_point);
+  above.erase(std::unique(above.begin(), above.end(), is_same), above.end());
   std::sort(extra_.begin(), extra_.end());
   extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
-  return above_simplices;
+  return offenders;
 }
 
 /// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
@@ -256,8 +275,10 @@ FacetClusters Approximation::run_width() {
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
-    growth_.put_back(add_offenders(covering, widths, target));
-    slab = std::min(slab, std::max(0.9 * slab, slab - 1.1 * (widest - target)));
+    const Offenders offenders = add_offenders(covering, widths, target);
+    growth_.put_back(offenders.above_simplices);
+    if (offenders.widest_slab > target)
+      slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }
   hull_.chosen.outside_width = outside_width;
   return clusters_of(covering, *space_);

@@ -24,6 +24,12 @@ struct TrueWidths {
   double widest() const { return *std::max_element(widths.begin(), widths.end()); }
 };
 
+/// What makes facets wider than they may be.
+struct Offenders {
+  std::vector<LocatedPoint> above_simplices;  ///< ascending; above simplices that are facets alone
+  double widest_slab = 0.0;  ///< [distance] of the facets of several simplices that are too wide
+};
+
 /// One approximate hull on its way.
 class Approximation {
  public:
@@ -50,7 +56,9 @@ class Approximation {
   }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
-  std::vector<LocatedPoint> add_offenders(const Covering& covering, const TrueWidths& widths, double width);
+  Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
+  void find_seen_offenders(const Covering& covering, std::span<const std::uint32_t> facets,
+                           std::span<FurthestPoint> furthest);
   void grow_for_width(double outside_width, double slab);
   FacetClusters run_width();
   FacetClusters run_count();

@@ -240,9 +240,11 @@ bool CertifiedGrowth::is_late() {
 
 void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
   forget_waiting();  // the caller has looked at all
+  const double least = std::nextafter(least_height(work_), HUGE_VAL);
   for (const LocatedPoint& point : points) {
-    push_outside(work_, point.point.value, point.simplex.value,
-                 height_above(work_, point.simplex.value, point.gauge));
+    if (work_.heights.height(point.point.value) != OutsideHeights::kNotOutside) continue;
+    const double height = height_above(work_, point.simplex.value, point.gauge);
+    push_outside(work_, point.point.value, point.simplex.value, std::max(height, least));
   }
   ++hull_.statistics.repair_rounds;
 }

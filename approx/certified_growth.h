@@ -52,7 +52,8 @@ class CertifiedGrowth {
   void certify_unproven(double gauge, KnownHighest known);
   /// Those of left_out() that are outside by more than W and rounding go back; false when there are none.
   bool repair() { return repair(left_out_); }
-  /// Puts these points, which are above these simplices, back into outside sets.
+  /// Puts these points, which are above these simplices, back into outside sets: growth adds them however
+  /// little they are above.
   void put_back(std::span<const LocatedPoint> points);
 
   GrowthWork& work() { return work_; }

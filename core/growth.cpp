@@ -102,6 +102,16 @@ void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, doub
   ++work.points_outside;
 }
 
+void forget_outside(GrowthWork& work) {
+  if (work.points_outside == 0) return;
+  for (std::size_t row = 0; row < work.complex.row_count; ++row) {
+    std::uint32_t next = work.complex.outside_head[row];
+    work.complex.outside_head[row] = 0;
+    for (; next != 0; next = work.next_outside[next - 1]) work.heights.remove(next - 1);
+  }
+  work.points_outside = 0;
+}
+
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first) {
   const std::size_t capacity = row_capacity(work.rank);
   work.complex = SimplicialComplex(work.rank, capacity);

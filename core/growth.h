@@ -89,7 +89,8 @@ struct FirstPoints {
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first);
 
 /// Adds outside points, the furthest of all first, until none are left or a limit is hit. May be called again
-/// after `push_outside`.
+/// after `push_outside`. Points in outside sets that are no higher than the least height are left out then:
+/// no set has any.
 GrowthStop grow(GrowthWork& work);
 
 /// How far a point with this gauge is above simplex `row`: its distance in length units, or the gauge itself
@@ -99,8 +100,11 @@ double height_above(const GrowthWork& work, std::uint32_t row, double gauge);
 /// Height from which on a point counts as outside.
 double least_height(const GrowthWork& work);
 
-/// Puts `point` into the outside set of simplex `row`, which it is above by `height`. The furthest point of a
-/// set comes first, the rest in no order.
+/// Empties all outside sets. Cost O(rows), nothing when they are empty.
+void forget_outside(GrowthWork& work);
+
+/// Puts `point`, which is in no outside set, into that of simplex `row`, which it is above by `height`. The
+/// furthest point of a set comes first, the rest in no order.
 void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height);
 
 }  // namespace ndhull

@@ -38,7 +38,11 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 HWY_EXPORT(run_growth);
 
-GrowthStop grow(GrowthWork& work) { return HWY_DYNAMIC_DISPATCH(run_growth)(work); }
+GrowthStop grow(GrowthWork& work) {
+  const GrowthStop stop = HWY_DYNAMIC_DISPATCH(run_growth)(work);
+  if (stop == GrowthStop::kNoOutsidePoints) forget_outside(work);
+  return stop;
+}
 
 }  // namespace ndhull
 #endif
