@@ -67,16 +67,17 @@ FacetClusters Approximation::run_merging() {
                  .least_facets = growth_.work().rank + 1};
   Covering covering;
   MergeCounts counts;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds;) {
     make_space(true);
     const SimplexRule simplex_rule(growth_.work().complex, *space_, rule, is_convex());
     SlabCover cover(growth_.work().complex, *space_, is_convex(), &simplex_rule);
     covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{.final_fit_steps = 0});
     counts = merge_clusters(growth_.work().complex, *space_, rule, covering);
-    if (!keeps_hull(covering)) {
-      rule.width_cap *= 0.75;  // what was merged bounds no region any more
+    if (!keeps_hull(covering) && covering.planes.size() < cover.live_count()) {
+      rule.width_cap *= 0.75;  // what was merged bounds no region any more; a hull may be thin
       continue;
     }
+    ++round;
     const TrueWidths widths = true_widths(covering);
     const std::size_t known = extra_.size();
     add_offenders(covering, widths, cap);

@@ -1,4 +1,5 @@
 // Merging under W, C and A: inputs on which Qhull's own merging ends without an answer, and the cap.
+#include "approx/verify.h"
 #include "tests/hull/hull_support.h"
 #include "tools/rbox.h"
 
@@ -41,6 +42,22 @@ TEST(MergeLaw, CapHoldsAndRefusedMergesAreCounted) {
   EXPECT_GT(free.max_facet_width, 0.04);
   EXPECT_GT(capped.chosen.refused_merges, 0U);
   EXPECT_GT(capped.facet_count(), free.facet_count());
+}
+
+// A radius many times the hull's least extent: all of it fits into one slab, which bounds nothing.
+TEST(MergeLaw, ThinHullsStayHulls) {
+  for (const char* words :
+       {"7 D6 t26", "6 D5 t3", "9 D6 t5", "12 D8 t2", "40 W1e-9 D4 t1", "30 Z1e-6 D5 s t1"}) {
+    SCOPED_TRACE(words);
+    const PointSet set = rbox(words);
+    HullOptions options;
+    options.accuracy.outside_width = {30.0, true};
+    options.accuracy.centrum_radius = {20.0, true};
+    const Hull hull = hull_of(set, options);
+    EXPECT_GT(hull.facet_count(), hull.rank);
+    const Verification verification = verify_hull(set.view(), hull, VerifyMode::kFloating);
+    EXPECT_TRUE(verification.passed()) << verification.first_failure();
+  }
 }
 
 TEST(MergeLaw, TinyRadiusMergesHardlyAnything) {
