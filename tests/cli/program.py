@@ -13,6 +13,8 @@ PROGRAM = os.environ["NDHULL"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DIAMONDS = ROOT / "bench" / "data" / "diamonds7.npy"
 SCRATCH = pathlib.Path(os.environ["NDHULL_SCRATCH"])
+# Seconds for one program; more where the build is slow (presets with sanitizers).
+PATIENCE = 0.4 * float(os.environ.get("NDHULL_TEST_SECONDS", "300"))
 
 
 def fresh_folder(name):
@@ -22,7 +24,7 @@ def fresh_folder(name):
     return folder
 
 
-def run(*arguments, exit_code=0, stdin=b"", timeout=120):
+def run(*arguments, exit_code=0, stdin=b"", timeout=PATIENCE):
     """The finished process; stdout and stderr as text."""
     words = [PROGRAM, *map(str, arguments)]
     done = subprocess.run(words, input=stdin, capture_output=True, timeout=timeout, check=False)

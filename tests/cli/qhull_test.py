@@ -6,7 +6,7 @@ import subprocess
 
 import numpy
 
-from program import PROGRAM, fresh_folder, one_error_line, run, run_tests
+from program import PATIENCE, PROGRAM, fresh_folder, one_error_line, run, run_tests
 
 QHULL, QHALF = shutil.which("qhull"), shutil.which("qhalf")
 
@@ -20,8 +20,8 @@ MERGED = ["c D2", "c D3", "c D4", "c D5", "c D6", "c D7", "c D8", "d D3", "d D5"
 
 def shell(command, stdin=b""):
     """Standard output of a pipe; every program in it must succeed."""
-    done = subprocess.run(["bash", "-o", "pipefail", "-c", command], input=stdin, capture_output=True, timeout=120,
-                          check=False)  # fmt: skip
+    done = subprocess.run(["bash", "-o", "pipefail", "-c", command], input=stdin, capture_output=True,
+                          timeout=PATIENCE, check=False)  # fmt: skip
     assert done.returncode == 0, (command, done.returncode, done.stderr.decode()[:500])
     return done.stdout.decode()
 
