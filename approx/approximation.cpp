@@ -74,6 +74,7 @@ FacetClusters Approximation::run_merging() {
     covering = cover.cover(kShareOfSlabs * rule.width_cap, CoverEffort{.final_fit_steps = 0});
     counts = merge_clusters(growth_.work().complex, *space_, rule, covering);
     if (!keeps_hull(covering) && covering.planes.size() < cover.live_count()) {
+      if (rule.width_cap < thinnest()) return FacetClusters{};
       rule.width_cap *= 0.75;  // what was merged bounds no region any more; a hull may be thin
       continue;
     }
@@ -238,11 +239,13 @@ bool Approximation::keeps_hull(const Covering& covering) const {
   return find_open_direction(normals, space_->rank()).bounded;
 }
 
+/// No planes: not even slabs as thin as rounding leave a hull.
 Covering Approximation::cover_width(double width, const CoverEffort& effort) {
   SlabCover cover(growth_.work().complex, *space_, is_convex());
   Covering covering = cover.cover(width, effort);
   hull_.chosen.refused_merges += close_open_directions(growth_.work().complex, *space_, covering);
   while (!keeps_hull(covering)) {
+    if (width < thinnest()) return Covering{};
     width *= 0.75;
     ++hull_.chosen.refused_merges;
     covering = cover.cover(width, effort);
@@ -273,6 +276,7 @@ FacetClusters Approximation::run_width() {
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
     covering = cover_width(slab, effort);
+    if (covering.planes.empty()) return FacetClusters{};
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;

@@ -56,6 +56,9 @@ class Approximation {
   }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
+  /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets
+  /// are the answer.
+  double thinnest() const { return 1e-15 * lengths_.largest_extent; }
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   void find_seen_offenders(const Covering& covering, std::span<const std::uint32_t> facets,
                            std::span<FurthestPoint> furthest);

@@ -60,6 +60,27 @@ TEST(MergeLaw, ThinHullsStayHulls) {
   }
 }
 
+// Boxes so thin that planes of their sides are rounding: no slab leaves a hull, and the search for one ends.
+TEST(MergeLaw, BoxesThinAsRoundingEnd) {
+  for (const auto& [d, thickness] : {std::pair{3, 1e-11}, {4, 1e-13}, {5, 1e-12}, {6, 1e-14}}) {
+    SCOPED_TRACE(std::to_string(d) + "-d, " + std::to_string(std::log10(thickness)));
+    PointSet box = rbox("c D" + std::to_string(d));
+    const auto dimension = static_cast<std::size_t>(d);
+    for (std::size_t i = dimension - 1; i < box.coordinates.size(); i += dimension)
+      box.coordinates[i] *= thickness;
+    for (const bool merges : {false, true}) {
+      HullOptions options;
+      if (merges) options.accuracy.max_cosine = 0.9;
+      if (merges) options.accuracy.outside_width = {5.0, true};
+      if (!merges) options.accuracy.width = {20.0, true};
+      const Hull hull = hull_of(box, options);
+      EXPECT_GT(hull.facet_count(), hull.rank);
+      const Verification verification = verify_hull(box.view(), hull, VerifyMode::kFloating);
+      EXPECT_TRUE(verification.passed()) << verification.first_failure();
+    }
+  }
+}
+
 TEST(MergeLaw, TinyRadiusMergesHardlyAnything) {
   const PointSet set = rbox("500 s D5 t1");
   EXPECT_GE(merged("500 s D5 t1", 0.0, 1e-9).facet_count(), hull_of(set).facet_count() * 99 / 100);
