@@ -57,24 +57,6 @@ void CertifiedGrowth::detail(std::string_view name, Clock::time_point since) {
   hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
 }
 
-void CertifiedGrowth::make_segment() {
-  std::uint32_t low = 0, high = 0;
-  for (std::uint32_t id = 0; id < points_.rows; ++id) {
-    if (coordinates_[id] < coordinates_[low]) low = id;
-    if (coordinates_[id] > coordinates_[high]) high = id;
-  }
-  work_.complex = SimplicialComplex(1, 2);
-  work_.complex.row_count = 2;
-  const std::uint32_t ends[2] = {low, high};
-  for (std::uint32_t row = 0; row < 2; ++row) {
-    work_.complex.topology[2 * row] = ends[row];
-    work_.complex.topology[2 * row + 1] = 1 - row;
-    work_.complex.planes[row] = 1.0 / coordinates_[ends[row]];
-    work_.complex.state[row] = SimplexState::kLive;
-  }
-  certificate_wanted_.assign(points_.rows, true);
-}
-
 GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   const std::uint64_t rows = work_.complex.row_count - work_.free_count;
   points_left += work_.waiting.size();
@@ -136,14 +118,34 @@ void CertifiedGrowth::start() {
   if (!work_.waiting.empty()) grow_before_placing();
 }
 
-void CertifiedGrowth::grow_exactly() {
+/// Pauses at certain sizes. Not for the first few simplices: small hulls are done before anything else has
+/// begun.
+GrowthStop CertifiedGrowth::grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise) {
+  if (!find_otherwise) return grow(work_);
+  constexpr std::uint64_t kFirstAsked = 2048, kMostBetween = std::uint64_t{1} << 20;
+  std::uint64_t rows = std::max(kFirstAsked, 2 * (work_.complex.row_count - work_.free_count));
+  for (;;) {
+    work_.options.pause_rows = rows;
+    const GrowthStop stop = grow(work_);
+    work_.options.pause_rows = 0;
+    if (stop != GrowthStop::kPaused) return stop;
+    if (2 * work_.shifted_points.size() >= work_.counters.insertions && find_otherwise(rows)) return stop;
+    rows += std::min(rows, kMostBetween);
+  }
+}
+
+bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& find_otherwise) {
   std::uint64_t searched_all = 0;
   start();
   for (std::uint64_t round = 0;; ++round) {
     Clock::time_point phase_start = Clock::now();
-    const GrowthStop stop = grow(work_);
+    const GrowthStop stop = grow_asking(find_otherwise);
     hull_.status = status_of(stop);
     seconds(Phase::kGrowth) += seconds_since(phase_start);
+    if (stop == GrowthStop::kPaused) {
+      report_counters();
+      return true;
+    }
     phase_start = Clock::now();
     tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =
@@ -156,6 +158,7 @@ void CertifiedGrowth::grow_exactly() {
     ++hull_.statistics.repair_rounds;
   }
   report_counters();
+  return false;
 }
 
 void CertifiedGrowth::grow_from_some() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -31,7 +32,10 @@ class CertifiedGrowth {
 
   /// Until no point is outside: every one is proven inside, or goes back and growth goes on, at most a few
   /// rounds.
-  void grow_exactly();
+  ///
+  /// `find_otherwise`, if any, is asked now and then, with the simplices so far, while most points that are
+  /// added lie on planes of others: does it have the hull? Then growth ends, and true is returned.
+  bool grow_exactly(const std::function<bool(std::uint64_t)>& find_otherwise);
 
   /// Until no point is more than `outside_width` above the simplex it lies over, or there are `enough_rows`
   /// simplices (0: no end there) and no point is more than `enough_height` above, or a limit is hit.
@@ -75,13 +79,13 @@ class CertifiedGrowth {
   void choose_certificate_points(std::size_t facets);
   /// One flag a point: vertex of a simplex, or left out.
   std::vector<bool>& certificate_wanted() { return certificate_wanted_; }
+  /// All input points.
+  void want_all() { certificate_wanted_.assign(points_.rows, true); }
   /// How far the wanted points reach along the normals of the complex' rows; empty: not known.
   KnownHighest take_known_highest() { return std::move(known_highest_); }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
   void release_coordinates() { coordinates_ = HugeArray<double>(); }
-  /// A segment: rank 1 has no growth.
-  void make_segment();
 
  private:
   void start();
@@ -90,6 +94,7 @@ class CertifiedGrowth {
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
   std::uint64_t point_bytes() const;
   void tell(Phase phase, std::uint64_t points_left, double furthest) const;
+  GrowthStop grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise);
   void grow_before_placing();
   bool holds_some_waiting();
   void place_waiting();

@@ -14,6 +14,7 @@
 #include "approx/approximation.h"
 #include "approx/certified_growth.h"
 #include "approx/coplanar_merge.h"
+#include "approx/described_hull.h"
 #include "approx/facet_layout.h"
 #include "approx/facet_table.h"
 #include "approx/frame_planes.h"
@@ -42,10 +43,15 @@ class HullBuilder {
   static void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
     hull.point_count = point_count;
     for (PointId& vertex : hull.vertices) vertex.value = ids[vertex.value];
+    if (hull.pulled_) {
+      hull.pulled_->rename_points(ids);
+      for (std::uint32_t& id : hull.lists_->lists.vertices.values) id = ids[id];
+      return;
+    }
     hull.lists_ = std::make_unique<Hull::Lists>();  // of the points as they are called now
-    const std::size_t rank = hull.simplices.rank;
-    for (std::size_t row = 0; row < hull.simplices.row_count; ++row) {
-      std::uint32_t* vertices = hull.simplices.topology.data() + row * 2 * rank;
+    const std::size_t rank = hull.simplices_.rank;
+    for (std::size_t row = 0; row < hull.simplices_.row_count; ++row) {
+      std::uint32_t* vertices = hull.simplices_.topology.data() + row * 2 * rank;
       for (std::size_t k = 0; k < rank; ++k) vertices[k] = ids[vertices[k]];
     }
   }
@@ -65,9 +71,9 @@ class HullBuilder {
     if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
     growth_.emplace(points_, frame_, factor, options_, start_, hull_);
     if (frame_.rank == 1) {
-      growth_->make_segment();
+      make_segment();
     } else if (is_exact) {
-      growth_->grow_exactly();
+      if (grow_or_describe()) return std::move(hull_);
     } else {
       approximate(factor);
     }
@@ -167,8 +173,77 @@ class HullBuilder {
     return is_corner;
   }
 
+  /// Rank 1 has no growth.
+  void make_segment() {
+    const double* coordinates = growth_->coordinates();
+    complex() = SimplicialComplex(1, 2);
+    complex().row_count = 2;
+    const double* const ends[2] = {std::min_element(coordinates, coordinates + points_.rows),
+                                   std::max_element(coordinates, coordinates + points_.rows)};
+    for (std::uint32_t row = 0; row < 2; ++row) {
+      complex().topology[2 * row] = static_cast<std::uint32_t>(ends[row] - coordinates);
+      complex().topology[2 * row + 1] = 1 - row;
+      complex().planes[row] = 1.0 / *ends[row];
+      complex().state[row] = SimplexState::kLive;
+    }
+    growth_->want_all();
+  }
+
+  /// The exact hull by simplices, or by whole facets where that is less work: then the hull is complete, and
+  /// true is returned.
+  bool grow_or_describe() {
+    const bool may_describe = options_.accuracy.is_exact() && !options_.triangulate &&
+                              !options_.wants_simplices && options_.shift >= HullOptions().shift &&
+                              points_.rows <= HullDescription::kMostPoints && frame_.rank > 2;
+    if (!may_describe) return growth_->grow_exactly({});
+    std::optional<HullDescription> description;
+    // About as long as growth has taken so far; a second at most, for those who wait for an end.
+    constexpr std::uint64_t kWorkPerSimplex = 250, kMostWork = std::uint64_t{1} << 28;
+    const Limits& limits = options_.limits;
+    // At most 8 bytes for each step, a 64th of what is allowed; the same for the facets.
+    const std::uint64_t most_words = limits.max_memory_bytes == 0 ? kMostWork : limits.max_memory_bytes / 512;
+    const auto find = [&](std::uint64_t simplices) {
+      if (limits.max_seconds > 0.0 && 4.0 * seconds_since(start_) > limits.max_seconds) return false;
+      if (!description) description.emplace(growth_->coordinates(), points_.rows, frame_, most_words);
+      return description->advance(std::min({kMostWork, most_words, kWorkPerSimplex * simplices})) &&
+             (limits.max_facets == 0 || description->simplex_count() <= limits.max_facets);
+    };
+    if (!growth_->grow_exactly(find)) return false;
+    const Clock::time_point start = Clock::now();
+    hull_.statistics.created_facets = description->created_facets();
+    adopt(description->take());
+    seconds(Phase::kMerge) += seconds_since(start);
+    return true;
+  }
+
+  void adopt(DescribedHull found) {
+    const std::size_t rank = frame_.rank;
+    hull_.vertices = std::move(found.vertices);
+    complex() = SimplicialComplex(rank, found.facets);
+    complex().row_count = found.facets;
+    std::copy(found.planes.begin(), found.planes.end(), complex().planes.data());
+    determinants_ = HugeArray<double>(found.facets);
+    std::copy(found.determinants.begin(), found.determinants.end(), determinants_.data());
+    hull_.layout_.facets = found.facets;
+    for (std::size_t facet = 0; facet < found.facets; ++facet)
+      for (std::size_t k = 0; k < rank; ++k)
+        hull_.layout_.area_vectors.push_back(found.determinants[facet] * found.planes[facet * rank + k]);
+    growth_->want_all();
+    certify_facets(KnownHighest(), &found.facet_vertices);
+    hull_.layout_.simplicial = found.simplicial;
+    hull_.lists_->lists = {std::move(found.facet_vertices), std::move(found.neighbours)};
+    std::call_once(hull_.lists_->made, [] {});
+    const auto& values = hull_.lists_->lists.vertices.values;
+    hull_.pulled_ = std::make_unique<PulledSimplices>(
+        std::move(found.faces),
+        std::vector<std::uint32_t>(values.begin(),
+                                   values.begin() + static_cast<std::ptrdiff_t>(rank * found.simplicial)));
+    for (std::uint32_t facet = 0; facet < found.facets; ++facet)
+      hull_.simplex_count_ += hull_.pulled_->count_of(FacetId{facet});
+  }
+
   void make_facets(const KnownHighest& known) {
-    Clock::time_point start = Clock::now();
+    const Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
     is_vertex_ =
         hull_.is_approximate ? find_corners() : find_vertices(complex(), hull_.layout_, points_.rows);
@@ -176,16 +251,24 @@ class HullBuilder {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
     growth_->choose_certificate_points(hull_.layout_.facets);
+    detail("vertices", start);
+    certify_facets(known, nullptr);
+    hull_.own_ids_.resize(complex().row_count);
+    for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
+    hull_.simplex_count_ = complex().row_count;
+    hull_.simplices_ = std::move(complex());
+  }
+
+  void certify_facets(const KnownHighest& known, const IdRows* merged_vertices) {
+    const Clock::time_point start = Clock::now();
     const bool is_known = !known.highest.empty();
     const CertificatePoints certificate = gather_certificate_points(
         points_, frame_, is_known ? find_corners() : growth_->certificate_wanted(), is_known);
     hull_.reference = certificate.reference;
     growth_->release_coordinates();
-    detail("vertices", start);
-    start = Clock::now();
-    FacetTable table =
-        make_facet_table(complex(), hull_.layout_, frame_, certificate, std::move(determinants_),
-                         hull_.length_unit_, growth_->covered_points(), known, options_.certifies_planes);
+    FacetTable table = make_facet_table(
+        complex(), hull_.layout_, frame_, certificate, std::move(determinants_), hull_.length_unit_,
+        growth_->covered_points(), known, options_.certifies_planes, merged_vertices);
     detail("facet table", start);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);
@@ -198,9 +281,6 @@ class HullBuilder {
     hull_.roundoff = table.roundoff;
     hull_.area = hull_.is_approximate ? table.surface : table.area;
     hull_.volume = table.volume;
-    hull_.own_ids_.resize(complex().row_count);
-    for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
-    hull_.simplices = std::move(complex());
   }
 
   const PointView& points_;

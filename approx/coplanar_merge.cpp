@@ -1,12 +1,14 @@
 #include "approx/coplanar_merge.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "approx/flat_facets.h"
+#include "approx/flat_plane.h"
 #include "core/blocks.h"
-#include "core/dense_solve.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
@@ -136,18 +138,8 @@ class Merger {
     return looks_[id.value];
   }
 
-  // Minimises sum (a.v - 1)^2. Kept only when it is no wider than the seed's plane: a thin flat does not
-  // determine all coordinates of its plane.
   void fit_plane(Cluster& cluster) {
-    const std::vector<PointId>& ids = cluster.points;
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(ids.size()), rank());
-    for (std::size_t i = 0; i < ids.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = point(ids[i]);
-    const Vector ones = Vector::Ones(rows.rows());
-    Vector residual = ones - rows * cluster.plane;
-    const double before = residual.lpNorm<Eigen::Infinity>();
-    const Vector fitted = cluster.plane + PivotedFactors(rows).solve(residual);
-    residual = ones - rows * fitted;
-    if (residual.lpNorm<Eigen::Infinity>() < before) cluster.plane = fitted;
+    fit_flat_plane(points_, complex_.rank, cluster.points, cluster.plane.data());
   }
 
   std::uint32_t root(std::uint32_t cluster) const {
@@ -168,7 +160,48 @@ class Merger {
         join(id, best);
         changed = true;
       }
+      if (!changed) changed = join_pockets();
     }
+  }
+
+  /// A facet has at least rank neighbours. One of several simplices with fewer is a pocket between flats,
+  /// deeper than the tolerance: it joins the neighbour in whose plane it lies best.
+  bool join_pockets() {
+    bool any = false;
+    for (auto id = static_cast<std::uint32_t>(clusters_.size()); id-- > 0;) {
+      if (clusters_[id].simplices.size() < 2 || !list_neighbours(id)) continue;
+      double best_width = HUGE_VAL;
+      std::uint32_t best = kNone;
+      for (const std::uint32_t other : neighbours_) {
+        const double width = added_width(clusters_[id], clusters_[other], HUGE_VAL);
+        if (width >= best_width) continue;
+        best_width = width;
+        best = other;
+      }
+      if (best == kNone) continue;
+      join(id, best);
+      any = true;
+    }
+    return any;
+  }
+
+  /// The facets of several simplices beside this one. False: it has rank neighbours.
+  bool list_neighbours(std::uint32_t id) {
+    neighbours_.clear();
+    std::vector<std::uint32_t>& alone = simplices_beside_;
+    alone.clear();
+    for (const std::uint32_t simplex : clusters_[id].simplices) {
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+        const bool is_of_several = is_merged(neighbour.value);
+        const std::uint32_t other = is_of_several ? root(cluster_of_[neighbour.value]) : neighbour.value;
+        std::vector<std::uint32_t>& list = is_of_several ? neighbours_ : alone;
+        if ((is_of_several && other == id) || std::find(list.begin(), list.end(), other) != list.end())
+          continue;
+        list.push_back(other);
+        if (neighbours_.size() + alone.size() >= complex_.rank) return false;
+      }
+    }
+    return true;
   }
 
   /// A simplex with two ridges to the same facet has all its vertices there, and joins it however it is
@@ -277,7 +310,7 @@ class Merger {
     if (clusters_.size() > clusters_[id].simplices.size() * complex_.rank) return true;
     for (std::uint32_t other = 0; other < clusters_.size(); ++other) {
       if (other != id && clusters_[other].joined == other &&
-          added_width(clusters_[id], clusters_[other]) < HUGE_VAL)
+          added_width(clusters_[id], clusters_[other], tolerance_) < HUGE_VAL)
         return true;
     }
     return false;
@@ -297,7 +330,7 @@ class Merger {
         const std::uint32_t other = root(other_cluster);
         if (tried_by_[other] == stamp_) continue;
         tried_by_[other] = stamp_;
-        const double width = added_width(clusters_[id], clusters_[other]);
+        const double width = added_width(clusters_[id], clusters_[other], tolerance_);
         if (width >= best_width) continue;
         best_width = width;
         best = other;
@@ -306,14 +339,13 @@ class Merger {
     return best;
   }
 
-  /// Largest distance of the points that `from` would add to `into` from its plane; infinite above the
-  /// tolerance.
-  double added_width(const Cluster& from, const Cluster& into) const {
+  /// Largest distance of the points that `from` would add to `into` from its plane; infinite from `most` on.
+  double added_width(const Cluster& from, const Cluster& into, double most) const {
     double width = 0.0;
     for (const PointId id : from.points) {
       if (std::binary_search(into.points.begin(), into.points.end(), id)) continue;
       width = std::max(width, std::abs(into.plane.dot(point(id)) - 1.0));
-      if (width >= tolerance_) return HUGE_VAL;
+      if (width >= most) return HUGE_VAL;
     }
     return width;
   }
@@ -354,6 +386,7 @@ class Merger {
   std::vector<PointLook> looks_;
   std::vector<std::uint32_t> tried_by_;  // per cluster, the stamp of the one that looked at it last
   std::uint32_t stamp_ = 0;
+  std::vector<std::uint32_t> neighbours_, simplices_beside_;
 };
 
 }  // namespace

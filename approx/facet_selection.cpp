@@ -24,7 +24,7 @@ void keep_first(std::uint64_t count, std::vector<std::uint32_t>& ids, std::vecto
 
 /// One flag a facet. The options look at all facets each: their results are intersected.
 std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options) {
-  const auto simplices = [&hull](std::uint32_t id) { return hull.simplices_of(FacetId{id}).size(); };
+  const auto simplices = [&hull](std::uint32_t id) { return hull.simplex_count_of(FacetId{id}); };
   // Areas beyond the range of doubles are the largest: a number that is none must not spoil the order.
   const auto area = [&hull](std::uint32_t id) {
     const double value = hull.area_of(FacetId{id});

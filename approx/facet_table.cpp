@@ -13,26 +13,31 @@
 namespace ndhull {
 namespace {
 
-/// Smallest and largest product of each merged facet's normal with its simplices' vertices.
-void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, const CertificatePoints& points,
-                 const double* normals, std::span<double> low, std::span<double> high) {
+/// Smallest and largest product of each merged facet's normal with its simplices' vertices, or with those
+/// given.
+void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+                 const CertificatePoints& points, const double* normals, std::span<double> low,
+                 std::span<double> high) {
   const std::size_t dimension = points.dimension;
   std::vector<std::uint32_t> last_facet(points.row_of_point.size(), FacetId::kNone);
   for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet) {
     double smallest = HUGE_VAL, largest = -HUGE_VAL;
     const double* normal = normals + facet * dimension;
+    const auto meet = [&](std::uint32_t id) {
+      if (last_facet[id] == facet) return;
+      last_facet[id] = static_cast<std::uint32_t>(facet);
+      const double* point = points.rows.data() + std::size_t{points.row_of_point[id]} * dimension;
+      double dot = 0.0;
+      for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
+      smallest = std::min(smallest, dot);
+      largest = std::max(largest, dot);
+    };
     const std::size_t merged = facet - layout.simplicial;
-    for (std::uint32_t simplex = layout.merged_begin[merged]; simplex < layout.merged_begin[merged + 1];
-         ++simplex) {
-      for (const PointId id : complex.vertices(SimplexId{simplex})) {
-        if (last_facet[id.value] == facet) continue;
-        last_facet[id.value] = static_cast<std::uint32_t>(facet);
-        const double* point = points.rows.data() + std::size_t{points.row_of_point[id.value]} * dimension;
-        double dot = 0.0;
-        for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
-        smallest = std::min(smallest, dot);
-        largest = std::max(largest, dot);
-      }
+    if (vertices != nullptr) {
+      for (const std::uint32_t id : vertices->row(merged)) meet(id);
+    } else {
+      for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row)
+        for (const PointId id : complex.vertices(SimplexId{row})) meet(id.value);
     }
     low[facet] = smallest;
     high[facet] = largest;
@@ -75,7 +80,8 @@ class TableMaker {
  public:
   TableMaker(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
              const CertificatePoints& points, HugeArray<double> determinants, const LengthUnit& unit,
-             const CoveredPoints& covered, const KnownHighest& known, bool certifies)
+             const CoveredPoints& covered, const KnownHighest& known, bool certifies,
+             const IdRows* merged_vertices)
       : complex_(complex),
         layout_(layout),
         frame_(frame),
@@ -84,6 +90,7 @@ class TableMaker {
         covered_(covered),
         known_(known),
         certifies_(certifies),
+        merged_vertices_(merged_vertices),
         dimension_(frame.dimension),
         count_(layout.facets),
         to_input_(frame),
@@ -100,7 +107,8 @@ class TableMaker {
     if (has_merged || searches_many_points()) {
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
-      merged_dots(complex_, layout_, points_, table_.normals.data(), low(0, count_), high(0, count_));
+      merged_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(), low(0, count_),
+                  high(0, count_));
       if (searches_many_points()) search_many_points();
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
@@ -296,6 +304,7 @@ class TableMaker {
   const CoveredPoints& covered_;
   const KnownHighest& known_;
   bool certifies_;
+  const IdRows* merged_vertices_;
   std::size_t dimension_, count_;
   NormalMap to_input_;
   double volume_per_determinant_;
@@ -309,8 +318,9 @@ class TableMaker {
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, HugeArray<double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
-                            bool certifies) {
-  return TableMaker(complex, layout, frame, points, std::move(determinants), unit, covered, known, certifies)
+                            bool certifies, const IdRows* merged_vertices) {
+  return TableMaker(complex, layout, frame, points, std::move(determinants), unit, covered, known, certifies,
+                    merged_vertices)
       .run();
 }
 

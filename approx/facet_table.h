@@ -11,6 +11,7 @@
 #include "approx/length_unit.h"
 #include "core/frame.h"
 #include "core/huge_array.h"
+#include "core/id_rows.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -43,6 +44,8 @@ struct CoveredPoints {
 /// Makes planes, certificates and areas of all facets. Unless it `certifies`, outer offsets are +infinity.
 /// `known`: of each facet, or empty; then the points are searched.
 ///
+/// `merged_vertices`: of the merged facets, where the complex has no simplices; otherwise none.
+///
 /// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). Both are
 /// consumed:
 ///           the planes are turned into the normals in place where the shapes allow, the offsets lie where
@@ -57,6 +60,6 @@ struct CoveredPoints {
 FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, HugeArray<double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
-                            bool certifies);
+                            bool certifies, const IdRows* merged_vertices = nullptr);
 
 }  // namespace ndhull

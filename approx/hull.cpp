@@ -58,24 +58,35 @@ double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.in
 
 const FacetLists& Hull::lists() const {
   std::call_once(lists_->made, [this] {
-    lists_->lists = list_irregular_facets(simplices, layout_, vertices, point_count);
+    lists_->lists = list_irregular_facets(simplices_, layout_, vertices, point_count);
   });
   return lists_->lists;
 }
 
 std::span<const PointId> Hull::vertices_of(FacetId facet) const {
-  if (facet.value < layout_.regular) return simplices.vertices(SimplexId{facet.value});
+  if (facet.value < layout_.regular) return simplices_.vertices(SimplexId{facet.value});
   return as_ids<PointId>(lists().vertices.row(facet.value - layout_.regular));
 }
 
 std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
   if (facet.value >= layout_.regular)
     return as_ids<FacetId>(lists().neighbours.row(facet.value - layout_.regular));
-  const auto neighbours = simplices.neighbours(SimplexId{facet.value});
+  const auto neighbours = simplices_.neighbours(SimplexId{facet.value});
   return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
 }
 
+const SimplicialComplex& Hull::simplices() const { return pulled_ ? pulled_->complex() : simplices_; }
+
+FacetId Hull::facet_of(SimplexId simplex) const {
+  return pulled_ ? pulled_->facet_of(simplex) : layout_.facet_of(simplex);
+}
+
+std::uint64_t Hull::simplex_count_of(FacetId facet) const {
+  return pulled_ ? pulled_->count_of(facet) : simplices_of(facet).size();
+}
+
 std::span<const SimplexId> Hull::simplices_of(FacetId facet) const {
+  if (pulled_) return pulled_->of(facet);
   if (is_simplicial(facet)) return {own_ids_.data() + facet.value, 1};
   const std::size_t merged = facet.value - layout_.simplicial;
   const std::uint32_t begin = layout_.merged_begin[merged];

@@ -17,6 +17,7 @@
 #include "approx/facet_layout.h"
 #include "approx/facet_lists.h"
 #include "approx/length_unit.h"
+#include "approx/pulled_simplices.h"
 #include "core/dimension_switch.h"
 #include "core/huge_array.h"
 #include "core/ids.h"
@@ -53,6 +54,8 @@ struct HullOptions {
   /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
   /// the planes are wanted.
   bool certifies_planes = true;
+  /// Simplices will be asked for: the hull is not looked for by whole facets (core/double_description.h).
+  bool wants_simplices = false;
   bool unit_cube = false;  ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
@@ -88,6 +91,7 @@ struct GrowthRecord {
 struct HullStatistics {
   std::uint64_t dropped_points = 0;  ///< of a large input: proven inside before the hull was grown
   std::uint64_t created_simplices = 0;
+  std::uint64_t created_facets = 0;  ///< not 0: the hull was found by whole facets, and these were made
   std::uint64_t insertions = 0;
   std::uint64_t shifted_points = 0;  ///< points that had to be moved inwards (input is nearly degenerate)
   std::uint64_t rejected_insertions =
@@ -122,7 +126,6 @@ class Hull {
   std::vector<double> subspace_equations;  ///< (dimension - rank) rows of dimension + 1: normal, offset
 
   std::vector<PointId> vertices;  ///< ascending; no redundant ones
-  SimplicialComplex simplices;    ///< compacted; without planes: those of the facets are here
 
   double area = 0.0;  ///< of the hull of the input, input units
   double volume = 0.0;
@@ -158,7 +161,14 @@ class Hull {
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
-  FacetId facet_of(SimplexId simplex) const { return layout_.facet_of(simplex); }
+  FacetId facet_of(SimplexId simplex) const;
+  std::uint64_t simplex_count() const { return simplex_count_; }
+  std::uint64_t simplex_count_of(FacetId facet) const;
+  /// The facets' simplices, compacted; without planes: those of the facets are here. Throws, as the two calls
+  /// above that name simplices do, Error kTooManySimplices: a hull that was found without them has more than
+  /// 2^27. Cost  the first call for such a hull makes them (core/pulled_complex.h); several threads may make
+  /// it.
+  const SimplicialComplex& simplices() const;
   bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
 
   /// Moves all outer planes out and all inner planes in: then they hold for points that differ from those the
@@ -176,7 +186,10 @@ class Hull {
   const FacetLists& lists() const;
   // Made when they are first asked for: planes, widths and areas need none.
   std::unique_ptr<Lists> lists_ = std::make_unique<Lists>();
+  SimplicialComplex simplices_;
   std::vector<SimplexId> own_ids_;  // 0, 1, 2, ...
+  std::uint64_t simplex_count_ = 0;
+  std::unique_ptr<PulledSimplices> pulled_;  // of a hull that was found without simplices
   LengthUnit length_unit_;
 };
 

@@ -29,6 +29,7 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
   }
   HullOptions planes_only = options;
   planes_only.certifies_planes = false;
+  planes_only.wants_simplices = true;
   const Hull hull = convex_hull(PointView::row_major(dual.data(), count, rank), planes_only);
   polytope.status = hull.status;
   polytope.bounded = hull.rank == rank;
@@ -53,10 +54,10 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
     append_row(polytope.planes_of, hull.vertices_of(facet));
     append_row(polytope.neighbours_of, hull.neighbours_of(facet));
   }
-  polytope.planes.reserve(hull.simplices.row_count * rank);
-  polytope.vertex_of.reserve(hull.simplices.row_count);
-  for (std::uint32_t row = 0; row < hull.simplices.row_count; ++row) {
-    const auto vertices = hull.simplices.vertices(SimplexId{row});
+  polytope.planes.reserve(hull.simplices().row_count * rank);
+  polytope.vertex_of.reserve(hull.simplices().row_count);
+  for (std::uint32_t row = 0; row < hull.simplices().row_count; ++row) {
+    const auto vertices = hull.simplices().vertices(SimplexId{row});
     for (const PointId id : vertices) polytope.planes.push_back(id.value);
     polytope.vertex_of.push_back(hull.facet_of(SimplexId{row}).value);
   }

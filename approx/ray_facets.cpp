@@ -139,7 +139,7 @@ std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
     double largest = -1.0;
     for (const SimplexId simplex : hull.simplices_of(ridge)) {
       RowMatrix edges(static_cast<Index>(rank) - 2, static_cast<Index>(rank) - 1);
-      const auto vertices = hull.simplices.vertices(simplex);
+      const auto vertices = hull.simplices().vertices(simplex);
       const auto coordinates_of = [&](PointId id) {
         return Eigen::Map<const Eigen::RowVectorXd>(within.coordinates.data() + id.value * (rank - 1),
                                                     static_cast<Index>(rank) - 1);

@@ -91,14 +91,12 @@ Json statistics_of(const HullStatistics& statistics) {
                      {"points_left", record.points_left},
                      {"furthest", record.furthest}});
   }
-  return {{"dropped_points", statistics.dropped_points},
-          {"created_simplices", statistics.created_simplices},
-          {"insertions", statistics.insertions},
-          {"shifted_points", statistics.shifted_points},
-          {"rejected_insertions", statistics.rejected_insertions},
-          {"repair_rounds", statistics.repair_rounds},
-          {"growth_curve", std::move(curve)},
-          {"detail_seconds", std::move(detail)}};
+  return {
+      {"dropped_points", statistics.dropped_points}, {"created_simplices", statistics.created_simplices},
+      {"created_facets", statistics.created_facets}, {"insertions", statistics.insertions},
+      {"shifted_points", statistics.shifted_points}, {"rejected_insertions", statistics.rejected_insertions},
+      {"repair_rounds", statistics.repair_rounds},   {"growth_curve", std::move(curve)},
+      {"detail_seconds", std::move(detail)}};
 }
 
 Json verification_of(const Verification& verification) {
@@ -155,7 +153,7 @@ Json head_of(const Hull& hull, const ReportContext& context) {
   json["facets"] = hull.facet_count();
   json["simplicial_facets"] = hull.simplicial_facet_count();
   json["merged_facets"] = hull.facet_count() - hull.simplicial_facet_count();
-  json["simplices"] = hull.simplices.row_count;
+  json["simplices"] = hull.simplex_count();
   if (context.selection != nullptr)
     json["selected"] = selected_of(*context.selection, context.outer_distance);
   json["area"] = hull.area;
@@ -201,7 +199,7 @@ class FacetLines {
     append_all(hull_.vertices_of(facet), text, [](PointId id) { return id.value; });
     text += ", \"neighbors\": ";
     append_all(hull_.neighbours_of(facet), text, [](FacetId id) { return id.value; });
-    append_number(", \"simplices\": ", hull_.simplices_of(facet).size(), text);
+    append_number(", \"simplices\": ", hull_.simplex_count_of(facet), text);
     text += '}';
   }
 

@@ -23,7 +23,7 @@ class ClaimsOfHull : public HullClaims {
   std::span<const double> interior_point() const override { return hull_.interior_point; }
   std::span<const double> reference() const override { return hull_.reference; }
   std::span<const PointId> vertices() const override { return hull_.vertices; }
-  const SimplicialComplex& simplices() const override { return hull_.simplices; }
+  const SimplicialComplex& simplices() const override { return hull_.simplices(); }
   std::size_t facet_count() const override { return hull_.facet_count(); }
   std::span<const double> normal(FacetId facet) const override { return hull_.normal(facet); }
   double offset(FacetId facet) const override { return hull_.offset(facet); }

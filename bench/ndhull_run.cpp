@@ -52,7 +52,7 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
   const double asked = hull.chosen.width_asked > 0.0 ? hull.chosen.width_asked : hull.roundoff;
   run.detail = {{"status", to_string(hull.status)},
                 {"points_outside", hull.points_outside},
-                {"simplices", hull.simplices.row_count},
+                {"simplices", hull.simplex_count()},
                 {"created_simplices", hull.statistics.created_simplices},
                 {"insertions", hull.statistics.insertions},
                 {"merges", hull.chosen.merges},

@@ -1,5 +1,7 @@
 #include "core/dense_solve.h"
 
+#include <Eigen/Cholesky>
+
 namespace ndhull {
 
 SquareFactors::SquareFactors(const Eigen::MatrixXd& rows) : factors_(rows) {}
@@ -32,6 +34,11 @@ Eigen::MatrixXd PivotedFactors::q() const {
 
 Eigen::MatrixXd PivotedFactors::upper(Eigen::Index rows) const {
   return factors_.matrixR().topRows(rows).triangularView<Eigen::Upper>();
+}
+
+Eigen::MatrixXd whitening_map(const Eigen::MatrixXd& covariance) {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  return root.matrixU().solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
 }
 
 Eigen::VectorXd solve_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_side) {

@@ -38,6 +38,9 @@ class PivotedFactors {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors_;
 };
 
+/// The upper triangular map W with W^T covariance W = 1: rows times W have the unit matrix for a covariance.
+Eigen::MatrixXd whitening_map(const Eigen::MatrixXd& covariance);
+
 /// Of several the shortest.
 Eigen::VectorXd solve_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_side);
 

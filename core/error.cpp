@@ -21,6 +21,7 @@ std::string_view to_string(ErrorCode code) {
     case ErrorCode::kDimensionTooLow: return "dimension-too-low";
     case ErrorCode::kDimensionTooHigh: return "dimension-too-high";
     case ErrorCode::kTooManyPoints: return "too-many-points";
+    case ErrorCode::kTooManySimplices: return "too-many-simplices";
     case ErrorCode::kBadHalfspace: return "bad-halfspace";
   }
   return "unknown";

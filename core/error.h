@@ -26,6 +26,7 @@ enum class ErrorCode {
   kDimensionTooLow,   ///< dimension 0
   kDimensionTooHigh,  ///< the affine rank is above kMaxDimension
   kTooManyPoints,     ///< more rows than 32-bit ids can number
+  kTooManySimplices,  ///< a hull that was found without its simplices has too many to list
   kBadHalfspace,      ///< a zero normal
 };
 

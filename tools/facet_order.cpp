@@ -40,7 +40,7 @@ double unit_determinant(std::vector<double> rows, std::size_t size) {
 
 double orientation(const Hull& hull, const PointView& points, SimplexId simplex) {
   const std::size_t size = hull.dimension;
-  const std::span<const PointId> vertices = hull.simplices.vertices(simplex);
+  const std::span<const PointId> vertices = hull.simplices().vertices(simplex);
   std::vector<double> rows;
   rows.reserve(size * size);
   for (std::size_t vertex = 1; vertex < size; ++vertex) {
@@ -87,7 +87,7 @@ std::vector<PointId> chain(std::vector<Edge> edges) {
 }  // namespace
 
 FacetOrder::FacetOrder(const Hull& hull, const PointView& points) : hull_(hull) {
-  const std::size_t count = hull.simplices.row_count;
+  const std::size_t count = hull.simplices().row_count;
   if (hull.rank != hull.dimension || hull.rank < 2) return;
   const std::size_t step = std::max<std::size_t>(1, count / kOrientationSamples);
   double surest = 0.0;
@@ -99,7 +99,7 @@ FacetOrder::FacetOrder(const Hull& hull, const PointView& points) : hull_(hull) 
 }
 
 std::vector<PointId> FacetOrder::oriented_row(SimplexId simplex) const {
-  const std::span<const PointId> vertices = hull_.simplices.vertices(simplex);
+  const std::span<const PointId> vertices = hull_.simplices().vertices(simplex);
   std::vector<PointId> row(vertices.begin(), vertices.end());
   if (reversed_ && row.size() > 1) std::swap(row[0], row[1]);
   return row;
@@ -108,7 +108,7 @@ std::vector<PointId> FacetOrder::oriented_row(SimplexId simplex) const {
 template <class Visit>
 void FacetOrder::for_each_ridge(FacetId facet, const Visit& visit) const {
   for (const SimplexId simplex : hull_.simplices_of(facet)) {
-    const std::span<const SimplexId> neighbours = hull_.simplices.neighbours(simplex);
+    const std::span<const SimplexId> neighbours = hull_.simplices().neighbours(simplex);
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       if (hull_.facet_of(neighbours[k]) != facet) visit(simplex, k);
     }
@@ -128,7 +128,7 @@ std::vector<PointId> FacetOrder::vertices(FacetId facet) const {
   } else if (hull_.rank == 3) {
     // The ridge opposite vertex k of an oriented triangle runs from vertex k+1 to vertex k+2.
     for_each_ridge(facet, [&](SimplexId simplex, std::size_t k) {
-      const std::span<const PointId> row = hull_.simplices.vertices(simplex);
+      const std::span<const PointId> row = hull_.simplices().vertices(simplex);
       Edge edge{row[(k + 1) % 3], row[(k + 2) % 3]};
       if (reversed_) std::swap(edge.first, edge.second);
       edges.push_back(edge);
@@ -145,7 +145,7 @@ std::vector<PointId> FacetOrder::vertices(FacetId facet) const {
 std::vector<PointId> FacetOrder::polygon() const {
   if (hull_.rank != 2) return {};
   std::vector<Edge> edges;
-  for (std::size_t row = 0; row < hull_.simplices.row_count; ++row) {
+  for (std::size_t row = 0; row < hull_.simplices().row_count; ++row) {
     const std::vector<PointId> vertices = oriented_row(SimplexId{static_cast<std::uint32_t>(row)});
     edges.emplace_back(vertices[0], vertices[1]);
   }
@@ -167,7 +167,7 @@ void FacetOrder::for_each_cone(FacetId facet, PointId apex,
   std::vector<PointId> cone;
   for_each_ridge(facet, [&](SimplexId simplex, std::size_t k) {
     // The point inside stands on the same side of the ridge as the vertex it replaces.
-    const std::span<const PointId> row = hull_.simplices.vertices(simplex);
+    const std::span<const PointId> row = hull_.simplices().vertices(simplex);
     cone.assign(row.begin(), row.end());
     cone[k] = apex;
     if (reversed_) std::swap(cone[0], cone[1]);

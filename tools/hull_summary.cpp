@@ -40,10 +40,10 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
     text += fmt::format("outside   {} points are above some outer plane\n", grouped(hull.points_outside));
   }
   text += fmt::format("vertices  {}\n", grouped(hull.vertices.size()));
-  text += fmt::format("facets    {}: {} simplicial, {} merged; {} simplices\n", grouped(hull.facet_count()),
-                      grouped(hull.simplicial_facet_count()),
-                      grouped(hull.facet_count() - hull.simplicial_facet_count()),
-                      grouped(hull.simplices.row_count));
+  text +=
+      fmt::format("facets    {}: {} simplicial, {} merged; {} simplices\n", grouped(hull.facet_count()),
+                  grouped(hull.simplicial_facet_count()),
+                  grouped(hull.facet_count() - hull.simplicial_facet_count()), grouped(hull.simplex_count()));
   if (context.selection != nullptr) text += describe_selection(*context.selection, context.outer_distance);
   if (hull.rank > 0) {
     // The facets of a segment are its two ends, which are counted.

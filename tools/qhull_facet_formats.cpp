@@ -66,7 +66,7 @@ void write_merge_counts(OutputFile& file, const QhullPrint& print) {
   constexpr std::size_t kLargestCount = 511;
   file.print("{}\n", print.facets.size());
   for (const FacetId facet : print.facets) {
-    file.print("{}\n", std::min(print.hull.simplices_of(facet).size() - 1, kLargestCount));
+    file.print("{}\n", std::min<std::uint64_t>(print.hull.simplex_count_of(facet) - 1, kLargestCount));
   }
 }
 

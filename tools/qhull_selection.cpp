@@ -71,7 +71,7 @@ Facets chosen(const Hull& hull, const Facets& candidates, const SelectionOptions
     return area_a != area_b ? area_a > area_b : a < b;
   };
   const auto is_more_merged = [&](FacetId a, FacetId b) {
-    const std::size_t of_a = hull.simplices_of(a).size(), of_b = hull.simplices_of(b).size();
+    const std::size_t of_a = hull.simplex_count_of(a), of_b = hull.simplex_count_of(b);
     return of_a != of_b ? of_a > of_b : is_larger(a, b);
   };
   Facets kept = candidates;

@@ -30,7 +30,7 @@ void add_work(std::string& text, const QhullPrint& print, const QhullCommand& co
   text += fmt::format("\nStatistics for: {}\n\n", print.invocation);
   text += fmt::format("  Number of points processed: {}\n", hull.statistics.insertions + hull.rank + 1);
   text += fmt::format("  Number of hyperplanes created: {}\n", hull.statistics.created_simplices);
-  const std::size_t merged = hull.simplices.row_count - hull.facet_count();
+  const std::size_t merged = hull.simplex_count() - hull.facet_count();
   if (merged > 0) text += fmt::format("  Number of merged facets: {}\n", merged);
   text += fmt::format("  CPU seconds to compute hull (after input): {:.4g}\n", facts.hull_seconds);
   if (facts.joggle) {
@@ -65,13 +65,12 @@ std::string summary_text(const QhullPrint& print, const QhullCommand& command, c
 
 std::string statistics_text(const Hull& hull) {
   const HullStatistics& statistics = hull.statistics;
-  std::string text =
-      fmt::format("growth    {} insertions, {} simplices made, {} left\n", statistics.insertions,
-                  statistics.created_simplices, hull.simplices.row_count);
+  std::string text = fmt::format("growth    {} insertions, {} simplices made, {} left\n",
+                                 statistics.insertions, statistics.created_simplices, hull.simplex_count());
   text += fmt::format("precision {} points shifted, {} insertions undone, {} repair rounds\n",
                       statistics.shifted_points, statistics.rejected_insertions, statistics.repair_rounds);
   text += fmt::format("merging   {} merges, {} refused; {} facets of {} simplices\n", hull.chosen.merges,
-                      hull.chosen.refused_merges, hull.facet_count(), hull.simplices.row_count);
+                      hull.chosen.refused_merges, hull.facet_count(), hull.simplex_count());
   text += fmt::format("widths    outer {:.3g}, inner {:.3g}, widest facet {:.3g}, roundoff {:.3g}\n",
                       hull.max_outer_offset, hull.min_inner_offset, hull.max_facet_width, hull.roundoff);
   text += "seconds  ";

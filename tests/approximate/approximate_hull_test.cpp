@@ -27,7 +27,7 @@ long double measured_width(const Hull& hull, const PointView& points) {
     long double high = -HUGE_VALL, low = HUGE_VALL;
     for (std::size_t point = 0; point < points.rows; ++point) high = std::max(high, product(point));
     for (const SimplexId simplex : hull.simplices_of(FacetId{row})) {
-      for (const PointId id : hull.simplices.vertices(simplex)) low = std::min(low, product(id.value));
+      for (const PointId id : hull.simplices().vertices(simplex)) low = std::min(low, product(id.value));
     }
     widest = std::max(widest, (high - low) / hull.input_per_length_unit(FacetId{row}));
   }
@@ -281,7 +281,7 @@ TEST(ApproximateHullOracle, AreaOfAMergedFacetIsItsProjection) {
     const auto normal = hull.normal(FacetId{row});
     double projected = 0.0;  // det(edges of the simplex, normal) / 3! is the projected area of one simplex
     for (const SimplexId simplex : hull.simplices_of(FacetId{row})) {
-      const auto ids = hull.simplices.vertices(simplex);
+      const auto ids = hull.simplices().vertices(simplex);
       Eigen::Matrix4d edges;
       for (std::size_t k = 0; k < 4; ++k) {
         const auto column = static_cast<Eigen::Index>(k);

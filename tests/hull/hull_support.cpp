@@ -89,7 +89,7 @@ void check_neighbours(const Hull& hull, std::uint32_t row, Problems& problems) {
 void expect_incidences(const Hull& hull) {
   Problems problems;
   std::vector<std::uint32_t> facets_at(hull.point_count, 0);
-  std::vector<bool> simplex_seen(hull.simplices.row_count, false);
+  std::vector<bool> simplex_seen(hull.simplices().row_count, false);
   std::uint64_t simplicial = 0;
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
     const FacetId facet{row};
@@ -104,7 +104,7 @@ void expect_incidences(const Hull& hull) {
       problems.check(hull.facet_of(simplex) == facet, "facet_of names the simplex's facet", row);
       problems.check(!simplex_seen.at(simplex.value), "no simplex is in two facets", row);
       simplex_seen[simplex.value] = true;
-      for (const PointId vertex : hull.simplices.vertices(simplex)) distinct.erase(vertex);
+      for (const PointId vertex : hull.simplices().vertices(simplex)) distinct.erase(vertex);
     }
     problems.check(distinct.empty(), "vertices are vertices of the facet's simplices", row);
   }
@@ -207,7 +207,7 @@ long double largest_inner_excess(const Hull& hull, const PointView& points) {
     const long double inner =
         static_cast<long double>(hull.inner_offset(facet)) * hull.input_per_length_unit(facet);
     for (const SimplexId simplex : hull.simplices_of(facet)) {
-      for (const PointId vertex : hull.simplices.vertices(simplex)) {
+      for (const PointId vertex : hull.simplices().vertices(simplex)) {
         excess = std::max(excess, inner - certified_distance(hull, facet, points, vertex.value));
       }
     }
@@ -232,9 +232,9 @@ void expect_sound(const Hull& hull, const PointView& points) {
     return;
   }
   expect_incidences(hull);
-  const ComplexCheck check = check_complex(hull.simplices);
+  const ComplexCheck check = check_complex(hull.simplices());
   EXPECT_TRUE(check.sound()) << check.first_problem;
-  EXPECT_EQ(check.simplices, hull.simplices.row_count);
+  EXPECT_EQ(check.simplices, hull.simplices().row_count);
   EXPECT_GT(hull.volume, 0.0);
   EXPECT_GT(hull.area, 0.0);
   EXPECT_EQ(hull.points_outside, 0U);

@@ -36,7 +36,7 @@ void expect_laws(const DegenerateCase& input) {
   expect_sound(hull, input.points);
   EXPECT_LE(hull.max_facet_width, 1e-11 * extent_of(input.points));
   EXPECT_LE(hull.max_outside_gauge, 1e-11);
-  if (hull.rank >= 2) expect_euler(face_numbers(hull.simplices));
+  if (hull.rank >= 2) expect_euler(face_numbers(hull.simplices()));
 }
 
 TEST(HullLaw, HoldsForEveryFamily) {
@@ -85,7 +85,7 @@ TEST(HullLaw, DehnSommervilleHoldsForTheSimplices) {
       const Hull hull = hull_of(input.points);
       if (hull.rank < 2) continue;
       SCOPED_TRACE(input.description);
-      const std::vector<std::uint64_t> faces = face_numbers(hull.simplices);
+      const std::vector<std::uint64_t> faces = face_numbers(hull.simplices());
       const std::size_t r = hull.rank;
       std::vector<std::int64_t> h(r + 1, 0);
       for (std::size_t k = 0; k <= r; ++k) {
@@ -110,7 +110,7 @@ TEST(HullLaw, TriangulatedFacetsAreTheSimplices) {
       SCOPED_TRACE(input.description);
       const Hull merged = hull_of(input.points);
       const Hull split = hull_of(input.points, {.triangulate = true});
-      EXPECT_EQ(split.facet_count(), split.simplices.row_count);
+      EXPECT_EQ(split.facet_count(), split.simplices().row_count);
       EXPECT_EQ(split.facet_count(), split.simplicial_facet_count());
       EXPECT_GE(split.facet_count(), merged.facet_count());
       EXPECT_LE(largest_outer_excess(split, input.points.view()), 0.0L);

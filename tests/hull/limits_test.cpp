@@ -32,7 +32,7 @@ TEST(LimitsLaw, AFacetLimitLeavesACertifiedHull) {
       const PointSet set = sphere(2000, d);
       const HullOptions options{.limits = {.max_facets = limit}};
       expect_certified_with(HullStatus::kFacetLimit, set, options);
-      EXPECT_LE(hull_of(set, options).simplices.row_count, limit);
+      EXPECT_LE(hull_of(set, options).simplices().row_count, limit);
     }
   }
 }
@@ -191,8 +191,8 @@ TEST(LimitsLaw, MergingIsCountedInTheMemory) {
   const HullOptions options{.limits = {.max_memory_bytes = 64'000'000}};
   const Hull hull = hull_of(cube, options);
   EXPECT_EQ(hull.status, HullStatus::kMemoryLimit);
-  EXPECT_LT(hull.simplices.row_count * (32U * 9U + 53U + 64U), 64'000'000U);
-  EXPECT_GT(hull.simplices.row_count * (32U * 9U + 53U + 64U), 40'000'000U);
+  EXPECT_LT(hull.simplices().row_count * (32U * 9U + 53U + 64U), 64'000'000U);
+  EXPECT_GT(hull.simplices().row_count * (32U * 9U + 53U + 64U), 40'000'000U);
   EXPECT_LE(largest_outer_excess(hull, cube.view()), 0.0L);
 }
 
@@ -200,7 +200,7 @@ TEST(LimitsExample, MemoryEndsGrowth) {
   const PointSet set = sphere(2000, 8);
   const HullOptions options{.limits = {.max_memory_bytes = 3'000'000}};
   expect_certified_with(HullStatus::kMemoryLimit, set, options);
-  EXPECT_LT(hull_of(set, options).simplices.row_count, 3'000'000U / 133U);
+  EXPECT_LT(hull_of(set, options).simplices().row_count, 3'000'000U / 133U);
 }
 
 TEST(LimitsExample, AStopRequestedBeforeLeavesTheFirstSimplexOrMore) {
