@@ -32,6 +32,28 @@ double fewest_vertices(std::size_t rank, std::size_t facets) {
   return (d - 1.0) * static_cast<double>(facets) - (d + 1.0) * (d - 2.0);
 }
 
+/// Scaled by this about its interior point the hull holds what all its outer planes enclose; infinite when
+/// that cannot be said.
+///
+/// Proof  In the cone from the interior point over one of a facet's simplices a point is t times one of the
+///        simplex. That is above the inner plane, so height + inner away at least, if height is how far the
+///        interior point is below the facet's plane; below the outer plane t is (height + outer) / (height +
+///        inner) at most. The cones fill the space.
+double scale_of_outer_polytope(const Hull& hull) {
+  double scale = 1.0;
+  for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
+    const FacetId facet{id};
+    const double unit = hull.input_per_length_unit(facet);
+    double height = -hull.centred_offset(facet);
+    for (std::size_t k = 0; k < hull.dimension; ++k)
+      height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
+    const double lowest = height + hull.inner_offset(facet) * unit;
+    if (!(lowest > 0.0)) return HUGE_VAL;
+    scale = std::max(scale, (height + hull.outer_offset(facet) * unit) / lowest);
+  }
+  return scale;
+}
+
 }  // namespace
 
 PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets) {
@@ -59,6 +81,10 @@ PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const 
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
                          unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, ""};
+  constexpr double kNarrow = 1.0 + 1e-10;
+  const double scale = facets.empty() ? scale_of_outer_polytope(hull) : HUGE_VAL;
+  const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
+  if (scale <= kNarrow) return {most, ""};
   const OuterVolume too_many{
       std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
@@ -80,7 +106,8 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
   if (polytope.status != HullStatus::kComplete) return too_many;
   if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
-  return {measure_polytope(planes, polytope).volume, ""};
+  // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
+  return {std::max(hull.volume, std::min(most, measure_polytope(planes, polytope).volume)), ""};
 }
 
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits) {

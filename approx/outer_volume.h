@@ -28,7 +28,9 @@ struct OuterVolume {
 /// Returns   no volume when the planes do not bound a region, when it has more than about max_simplices
 ///           vertices (its vertices as simplices of the dual hull; 0: no limit), or after a request to stop.
 /// Error     as measure_polytope's.
-/// Cost      the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a vertex.
+/// Cost      of all facets of an exact hull O(facets dimension): its own volume, raised by what the widths
+/// allow.
+///           Else the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a vertex.
 /// Planes
 ///           too many for max_simplices vertices cost nothing. The result does not depend on threads.
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
