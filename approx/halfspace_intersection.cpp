@@ -149,10 +149,7 @@ class Intersector {
     result_.status = polytope.status;
     if (!polytope.bounded) {
       if (polytope.status != HullStatus::kComplete) return;  // so few planes that nothing is bounded yet
-      throw Error(
-          ErrorCode::kBadHalfspace,
-          "found a region so long that doubles do not tell it from one without end, expected one that "
-          "is not; scale the coordinates");
+      throw too_long_a_region();
     }
     start = Clock::now();
     PolytopeVertices vertices = place_vertices(halfspaces_, region_, centre, planes, polytope);

@@ -160,6 +160,8 @@ class RegionFinder {
 
   /// There is no ball: the region is empty, or lies in a subspace.
   void settle() {
+    // No plane holds the ball: the way out that was found leads through planes, to rounding.
+    if (tight_.empty()) throw too_long_a_region();
     if (objective_ < -roundoff_) {
       prove_empty(tight_);
     } else {
@@ -279,6 +281,12 @@ class RegionFinder {
 };
 
 }  // namespace
+
+Error too_long_a_region() {
+  return Error(ErrorCode::kBadHalfspace,
+               "found a region so long that doubles do not tell it from one without end, expected one that "
+               "is not; scale the coordinates");
+}
 
 HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
                             const std::optional<std::vector<double>>& interior_point) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "approx/halfspace_set.h"
+#include "core/error.h"
 
 namespace ndhull {
 
@@ -41,13 +42,17 @@ struct HalfspaceRegion {
 /// Rounding  a radius within some units in the last place of the planes that decide it counts as 0.
 /// Throws    Error kBadHalfspace when `interior_point` is not strictly inside: names the halfspace it is
 /// furthest
-///           outside of, and the distance.
+///           outside of, and the distance; when the region is so long and thin that rounding hides its end
+///           and every point of it.
 /// Cost      3 linear programs with rank + 1 rows a stage, of which the later ones start at the optimum of
 /// the
 ///           first; one stage when there is an interior.
 /// Source    Boyd, Vandenberghe. Convex Optimization, sec. 8.5.1 (Chebyshev centre).
 HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
                             const std::optional<std::vector<double>>& interior_point);
+
+/// What is thrown of a region whose length is lost in rounding.
+Error too_long_a_region();
 
 /// A point well inside, or a direction without end.
 struct RegionCentre {

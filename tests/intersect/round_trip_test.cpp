@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_random.h"
 #include "tests/intersect/intersect_support.h"
 #include "tests/support/degeneracies.h"
 #include "tools/rbox.h"
@@ -55,6 +56,26 @@ TEST(IdentityPipe, OfPointsFarFromTheOrigin) {
     expect_identity(moved(points, std::vector<double>(d, 1e5)), 1e-8);
     expect_identity(moved(points, std::vector<double>(d, 1e10)), 1e-3);
   }
+}
+
+// What the planes enclose, or that it is too long and thin to be found.
+TEST(IntersectionRegression, LongThinRegionsEndInAWord) {
+  int refused = 0;
+  for (std::uint64_t seed = 310; seed < 330; ++seed) {
+    SCOPED_TRACE("small integers in 5-d, axes of 1e-5 to 1e4, seed " + std::to_string(seed));
+    PointSet set{5, {}, {}};
+    PortableRandom random(seed);
+    for (int i = 0; i < 5 * 396; ++i) set.coordinates.push_back(static_cast<double>(random.below(5)) - 2.0);
+    const PointSet points = axis_scaled(set, std::vector<double>{1e3, 1e4, 1e-5, 1e3, 0.1});
+    try {
+      const HalfspaceIntersection region = intersect_planes(outer_planes(hull_of(points), points.view()));
+      EXPECT_EQ(region.kind, IntersectionKind::kBounded);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kBadHalfspace);
+      ++refused;
+    }
+  }
+  EXPECT_LE(refused, 1);
 }
 
 TEST(IdentityPipe, OfNarrowPoints) {
