@@ -184,14 +184,9 @@ bool HullDescription::closes() {
 
 /// Lists in terms of points. False: a simplicial facet has other neighbours than one opposite each vertex.
 bool HullDescription::list_facets() {
-  for (PulledFaces::Face& face : hull_.faces.faces) {
-    const std::size_t named = face.is_simplex ? face.count : 1;
-    for (std::size_t i = 0; i < named; ++i) {
-      std::uint32_t& entry = hull_.faces.entries[face.begin + i];
-      entry = hull_.vertices[entry].value;
-    }
-  }
   std::vector<std::uint32_t> vertices;
+  for (const PointId id : hull_.vertices) vertices.push_back(id.value);
+  rename_vertices(hull_.faces, vertices);
   for (std::size_t facet = 0; facet < hull_.facets; ++facet) {
     vertices.clear();
     for_each_bit(by_vertex_.bits(facet), [&](std::uint32_t vertex) { vertices.push_back(vertex); });

@@ -25,13 +25,7 @@ std::span<const SimplexId> PulledSimplices::of(FacetId facet) const {
 }
 
 void PulledSimplices::rename_points(std::span<const std::uint32_t> ids) {
-  for (const PulledFaces::Face& face : faces_.faces) {
-    const std::size_t named = face.is_simplex ? face.count : 1;
-    for (std::size_t i = 0; i < named; ++i) {
-      std::uint32_t& entry = faces_.entries[face.begin + i];
-      entry = ids[entry];
-    }
-  }
+  rename_vertices(faces_, ids);
   for (std::uint32_t& id : first_rows_) id = ids[id];
 }
 

@@ -292,6 +292,16 @@ class Puller {
 
 }  // namespace
 
+void rename_vertices(PulledFaces& faces, std::span<const std::uint32_t> ids) {
+  for (const PulledFaces::Face& face : faces.faces) {
+    const std::size_t named = face.is_simplex ? face.count : 1;
+    for (std::size_t i = 0; i < named; ++i) {
+      std::uint32_t& entry = faces.entries[face.begin + i];
+      entry = ids[entry];
+    }
+  }
+}
+
 PulledFaces pull_faces(const FacetIncidence& hull, const double* points, std::uint64_t work) {
   return Puller(hull, points, work).run();
 }

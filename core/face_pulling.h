@@ -31,6 +31,9 @@ struct PulledFaces {
   }
 };
 
+/// Vertex i is now ids[i].
+void rename_vertices(PulledFaces& faces, std::span<const std::uint32_t> ids);
+
 /// Pulls the vertices of a hull in the order of their numbers.
 ///
 /// Method  The facets of a face are the largest of its intersections with its neighbours' facets. Faces are
