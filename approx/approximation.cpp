@@ -253,7 +253,7 @@ Covering Approximation::cover_width(double width, const CoverEffort& effort) {
   }
   hull_.chosen.slab_width = width;
   // Slabs of degenerate data start from planes that rounding has drawn: two may share what one could hold.
-  if (covering.planes.size() <= kFewFacets || !growth_.work().shifted_points.empty()) {
+  if (covering.planes.size() <= kFewFacets || is_degenerate()) {
     const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
     Covering joined = covering;
     merge_clusters(growth_.work().complex, *space_, any, joined);

@@ -54,6 +54,10 @@ class Approximation {
   bool is_convex() const {
     return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
   }
+  /// So many points share planes that rounding has drawn many simplices' planes.
+  bool is_degenerate() const {
+    return 4 * growth_.work().shifted_points.size() >= growth_.work().counters.insertions;
+  }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
   /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets

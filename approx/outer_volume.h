@@ -29,15 +29,15 @@ struct OuterVolume {
 ///           vertices (its vertices as simplices of the dual hull; 0: no limit), or after a request to stop.
 /// Error     as measure_polytope's.
 /// Cost      of all facets of an exact hull O(facets dimension): its own volume, raised by what the widths
-/// allow.
-///           Else the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a vertex.
-/// Planes
-///           too many for max_simplices vertices cost nothing. The result does not depend on threads.
+///           allow. Else the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a
+///           vertex. Planes too many for max_simplices vertices cost nothing.
+/// Threads   the result does not depend on their number.
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
                          unsigned threads = 0, const std::stop_token& stop = {});
 
-/// A max_simplices with which the volume costs at most about 0.2 s or a fifth of the hull's growth, whichever
-/// is more, and no more memory than limits.max_memory_bytes. The same for the same hull on every machine.
+/// A max_simplices with which the volume costs at most about 0.04 s or a fifth of the hull's growth,
+/// whichever is more, and no more memory than limits.max_memory_bytes. The same for the same hull on every
+/// machine.
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits = {});
 
 }  // namespace ndhull

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <queue>
@@ -48,8 +49,8 @@ SlabCover::SlabCover(const SimplicialComplex& complex, const WidthSpace& space, 
       space_(space),
       is_convex_(is_convex),
       grower_(complex, space, rule, is_convex),
-      scratch_([this] { return SlabScratch(complex_.row_count, space_.table().count()); }),
-      hits_(complex.row_count, 0) {
+      seeds_(complex, space, rule == nullptr && grower_.meets_all_points()),
+      scratch_([this] { return SlabScratch(complex_, space_); }) {
   for (std::uint32_t row = 0; row < complex.row_count; ++row)
     live_count_ += complex.state[row] == SimplexState::kLive ? 1u : 0u;
 }
@@ -60,32 +61,27 @@ Covering SlabCover::cover(double width, const CoverEffort& effort) {
   depths_.clear();
   members_.reserve(2 * live_count_);
   depths_.reserve(2 * live_count_);
-  std::fill(hits_.begin(), hits_.end(), std::uint8_t{0});
-  // Seeds are taken in batches: what one slab of a batch holds can still seed another one. So they are far
-  // apart, and each runs through its own stretch of rows, which are often neighbours on the hull and in
-  // cache.
-  const std::size_t count = complex_.row_count, stretches = std::clamp<std::size_t>(count / 512, 1, 64);
-  const std::size_t length = (count + stretches - 1) / stretches;
-  std::vector<GrownSlab> batch(stretches);
+  seeds_.clear();
   for (unsigned round = 1; round <= effort.choices; ++round) {
-    for (std::size_t i = 0; i < length; ++i) {
-      std::size_t used = 0;
-      for (std::size_t row = i; row < count; row += length) {
-        if (hits_[row] < round && complex_.state[row] == SimplexState::kLive)
-          batch[used++].seed = static_cast<std::uint32_t>(row);
-      }
-      add_slabs(std::span<GrownSlab>(batch).first(used), width, effort);
+    seeds_.open(round);
+    for (;;) {
+      const std::span<const SeedChoice> seeds = seeds_.next_batch();
+      if (seeds.empty()) break;
+      add_slabs(seeds, width, effort);
     }
   }
   return assign(choose_slabs(), width, effort);
 }
 
-void SlabCover::add_slabs(std::span<GrownSlab> batch, double width, const CoverEffort& effort) {
-  for_each_block(batch.size(), 1, [&](std::size_t i, std::size_t) {
-    grower_.grow(batch[i], width, effort, scratch_.local());
+void SlabCover::add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort) {
+  if (batch_.size() < seeds.size()) batch_.resize(seeds.size());
+  for_each_block(seeds.size(), 1, [&](std::size_t i, std::size_t) {
+    SlabScratch& scratch = scratch_.local();
+    batch_[i].seed = seeds_.best_of(seeds[i], width, scratch.fit);
+    grower_.grow(batch_[i], width, effort, scratch);
   });
-  for (GrownSlab& slab : batch) {
-    for (const std::uint32_t member : slab.members) count_up(hits_[member]);
+  for (GrownSlab& slab : std::span(batch_).first(seeds.size())) {
+    seeds_.add_slab(slab.members);
     slabs_.push_back({std::move(slab.plane), members_.size(), members_.size() + slab.members.size()});
     members_.insert(members_.end(), slab.members.begin(), slab.members.end());
     depths_.insert(depths_.end(), slab.depths.begin(), slab.depths.end());
@@ -96,12 +92,13 @@ void SlabCover::add_slabs(std::span<GrownSlab> batch, double width, const CoverE
 // those are dropped, last chosen first, that others have made superfluous.
 std::vector<std::uint32_t> SlabCover::choose_slabs() {
   std::vector<std::uint8_t> times(complex_.row_count, 0);  // chosen slabs that hold it, at most 255
-  float weight[256] = {1.0f};
-  for (int hits = 1; hits < 256; ++hits) weight[hits] = 1.0f / static_cast<float>(hits);
+  std::vector<float> worth(complex_.row_count, 0.0f);      // of holding it: 0 once a chosen slab does
+  const std::span<const std::uint8_t> hits = seeds_.hits();
+  for (std::size_t row = 0; row < worth.size(); ++row)
+    if (hits[row] > 0) worth[row] = 1.0f / static_cast<float>(hits[row]);
   const auto gain_of = [&](std::uint32_t slab) {
     float gain = 0.0f;
-    for (std::size_t i = slabs_[slab].begin; i < slabs_[slab].end; ++i)
-      gain += times[members_[i]] == 0 ? weight[hits_[members_[i]]] : 0.0f;
+    for (std::size_t i = slabs_[slab].begin; i < slabs_[slab].end; ++i) gain += worth[members_[i]];
     return gain;
   };
   struct Offer {
@@ -111,9 +108,18 @@ std::vector<std::uint32_t> SlabCover::choose_slabs() {
       return gain != other.gain ? gain < other.gain : slab > other.slab;
     }
   };
-  std::priority_queue<Offer> offers;
-  for (std::uint32_t slab = 0; slab < slabs_.size(); ++slab) offers.push({gain_of(slab), slab});
+  std::vector<Offer> first_offers;
   std::vector<std::uint32_t> chosen;
+  for (std::uint32_t slab = 0; slab < slabs_.size(); ++slab) {
+    const std::uint32_t seed = members_[slabs_[slab].begin];
+    if (slabs_[slab].end - slabs_[slab].begin > 1 || hits[seed] > 1) {
+      first_offers.push_back({gain_of(slab), slab});
+    } else {  // no other slab holds its simplex
+      chosen.push_back(slab);
+      times[seed] = 1;
+    }
+  }
+  std::priority_queue<Offer> offers(std::less<Offer>(), std::move(first_offers));
   while (!offers.empty()) {
     const Offer best = offers.top();
     offers.pop();
@@ -124,8 +130,10 @@ std::vector<std::uint32_t> SlabCover::choose_slabs() {
       continue;
     }
     chosen.push_back(best.slab);
-    for (std::size_t i = slabs_[best.slab].begin; i < slabs_[best.slab].end; ++i)
+    for (std::size_t i = slabs_[best.slab].begin; i < slabs_[best.slab].end; ++i) {
       count_up(times[members_[i]]);
+      worth[members_[i]] = 0.0f;
+    }
   }
   std::vector<std::uint32_t> kept;
   for (std::size_t c = chosen.size(); c-- > 0;) {

@@ -19,6 +19,7 @@
 
 #include "approx/covering.h"
 #include "approx/slab_growth.h"
+#include "approx/slab_seeds.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 
@@ -52,7 +53,7 @@ class SlabCover {
     std::vector<std::uint32_t> simplices;
   };
 
-  void add_slabs(std::span<GrownSlab> slabs, double width, const CoverEffort& effort);
+  void add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort);
   std::vector<std::uint32_t> choose_slabs();
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
   void measure_facets(Covering& covering, double width, const CoverEffort& effort);
@@ -65,12 +66,13 @@ class SlabCover {
   const WidthSpace& space_;
   bool is_convex_;
   SlabGrower grower_;
+  SlabSeeds seeds_;
+  std::vector<GrownSlab> batch_;
   std::size_t live_count_ = 0;
   tbb::enumerable_thread_specific<SlabScratch> scratch_;
   std::vector<Slab> slabs_;
   std::vector<std::uint32_t> members_;  // of all slabs
   std::vector<float> depths_;           // of each member in its slab
-  std::vector<std::uint8_t> hits_;      // per row: slabs it is in, at most 255
   std::vector<float> depth_of_;         // per row: in the facet it was assigned to
 };
 

@@ -11,11 +11,18 @@ namespace {
 
 /// Simplices from which on turning a slab and growing it again is worth its time: smaller ones gain 1 to 5 %.
 constexpr std::size_t kWorthTurning = 64;
-/// A slab that has so many simplices meets most of the points, if these are few: then all products are
-/// computed at once, and nothing is asked of each.
-constexpr std::size_t kManyGrown = 64, kFewRows = 4096;
+/// So few points that each slab that is turned may compute its products with all of them.
+constexpr std::size_t kFewRows = 4096;
 
 }  // namespace
+
+SlabScratch::SlabScratch(const SimplicialComplex& complex, const WidthSpace& space)
+    : met(complex.row_count), vertex_stamp(space.table().count(), 0), dots(space.table().count()) {
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    for (const PointId id : complex.vertices(SimplexId{row})) met[row].mix ^= space.row_of(id);
+  }
+}
 
 SlabGrower::SlabGrower(const SimplicialComplex& complex, const WidthSpace& space, const SimplexRule* rule,
                        bool is_convex)
@@ -39,79 +46,85 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
 }
 
 /// Gathers in scratch.grown and scratch.depths the simplices around the seed whose vertices are all less than
-/// `width` below the plane. None when the seed is not among them.
-void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width,
+/// `width` below the plane: all of them, or the first `enough`. None when the seed is not among them.
+/// Products that have scratch.vertex_pass already are taken as they are.
+void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
                        SlabScratch& scratch) const {
-  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { flood_in<d>(seed, plane, width, scratch); });
+  call_with_dimension<2, kMaxRank>(complex_.rank,
+                                   [&](auto d) { flood_in<d>(seed, plane, width, enough, scratch); });
 }
 
 template <std::size_t D>
-void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double width,
+void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
                           SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
-  const auto vertices_of_row = [this](std::uint32_t row) {
-    return complex_.topology.data() + std::size_t{row} * 2 * D;
-  };
-  const auto mix_of = [](const std::uint32_t* vertices) {
-    std::uint32_t mix = 0;
-    for (std::size_t k = 0; k < D; ++k) mix ^= vertices[k];
-    return mix;
-  };
-  const auto take = [&](std::uint32_t simplex, const auto& height_of) {
-    double low = HUGE_VAL, sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-      const double height = height_of(vertices_of_row(simplex)[k]);
-      low = std::min(low, height);
-      sum += height;
-    }
-    if (low < least) return;
-    if (rule_ != nullptr && simplex != seed &&
-        !rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit))
-      return;
-    scratch.grown.push_back(simplex);
-    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
-    for (std::size_t k = D; k < 2 * D; ++k) {  // neighbours: they are met next, or soon
-      const std::uint32_t next = vertices_of_row(simplex)[k];
-      __builtin_prefetch(scratch.stamp.data() + next, 1);
-      __builtin_prefetch(vertices_of_row(next));
-    }
-  };
-  std::size_t next_grown = 0;
-  const auto spread = [&](std::size_t enough, const auto& height_of) {
-    for (; next_grown < scratch.grown.size() && scratch.grown.size() < enough; ++next_grown) {
-      const std::uint32_t* vertices = vertices_of_row(scratch.grown[next_grown]);
-      const std::uint32_t mix = mix_of(vertices);
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t next = vertices[D + k];
-        if (scratch.stamp[next] == scratch.flood) continue;
-        scratch.stamp[next] = scratch.flood;
-        // All its vertices are this one's too, but for the one across the ridge.
-        const std::uint32_t apex = mix ^ vertices[k] ^ mix_of(vertices_of_row(next));
-        if (!(height_of(apex) < least)) take(next, height_of);
-      }
-    }
-  };
-  const std::uint32_t pass = ++scratch.vertex_pass;
-  const auto height_when_asked = [&](std::uint32_t vertex) {
-    const std::uint32_t row = space_.row_of(PointId{vertex});
+  const std::uint32_t pass = scratch.vertex_pass, flood = ++scratch.flood;
+  const auto height_of = [&](std::uint32_t row) {
     if (scratch.vertex_stamp[row] != pass) {
       scratch.vertex_stamp[row] = pass;
       scratch.dots[row] = dot_of(plane.normal.data(), row);
     }
     return scratch.dots[row];
   };
+  const auto row_of = [this](std::uint32_t vertex) { return space_.row_of(PointId{vertex}); };
+  const auto vertices_of_row = [this](std::uint32_t row) {
+    return complex_.topology.data() + std::size_t{row} * 2 * D;
+  };
+  const auto is_wanted = [&](std::uint32_t simplex) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < D; ++k) sum += height_of(row_of(vertices_of_row(simplex)[k]));
+    return rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit);
+  };
+  constexpr std::size_t kAhead = 2;
+  const auto take = [&](std::uint32_t simplex, double low) {
+    scratch.grown.push_back(simplex);
+    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
+    __builtin_prefetch(vertices_of_row(simplex));
+    __builtin_prefetch(vertices_of_row(simplex) + 2 * D - 1);
+  };
   scratch.grown.clear();
   scratch.depths.clear();
   if (rule_ != nullptr) rule_->set_plane(SimplexId{seed}, plane, scratch.compared);
-  ++scratch.flood;
-  scratch.stamp[seed] = scratch.flood;
-  take(seed, height_when_asked);
-  const std::size_t count = space_.table().count();
-  if (count > kFewRows) return spread(SIZE_MAX, height_when_asked);
-  spread(kManyGrown, height_when_asked);
-  if (next_grown == scratch.grown.size()) return;
-  for (std::uint32_t row = 0; row < count; ++row) scratch.dots[row] = dot_of(plane.normal.data(), row);
-  spread(SIZE_MAX, [&](std::uint32_t vertex) { return scratch.dots[space_.row_of(PointId{vertex})]; });
+  scratch.met[seed].flood = flood;
+  double low_of_seed = HUGE_VAL;
+  for (std::size_t k = 0; k < D; ++k)
+    low_of_seed = std::min(low_of_seed, height_of(row_of(vertices_of_row(seed)[k])));
+  if (low_of_seed < least) return;
+  take(seed, low_of_seed);
+  for (std::size_t i = 0; i < scratch.grown.size() && scratch.grown.size() < enough; ++i) {
+    const std::uint32_t* vertices = vertices_of_row(scratch.grown[i]);
+    if (i + kAhead < scratch.grown.size()) {
+      const std::uint32_t* later = vertices_of_row(scratch.grown[i + kAhead]);
+      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(&scratch.met[later[D + k]], 1);
+    }
+    std::uint32_t rows[D], mix = 0;
+    double low = HUGE_VAL, second = HUGE_VAL;
+    std::size_t lowest = 0;
+    for (std::size_t k = 0; k < D; ++k) {
+      rows[k] = row_of(vertices[k]);
+      mix ^= rows[k];
+      const double height = height_of(rows[k]);
+      if (height < low) {
+        second = low;
+        low = height;
+        lowest = k;
+      } else {
+        second = std::min(second, height);
+      }
+    }
+    // All of them at once: they lie all over memory.
+    MetSimplex met[D];
+    for (std::size_t k = 0; k < D; ++k) met[k] = scratch.met[vertices[D + k]];
+    for (std::size_t k = 0; k < D; ++k) {
+      if (met[k].flood == flood) continue;
+      const std::uint32_t next = vertices[D + k];
+      scratch.met[next].flood = flood;
+      // All its vertices are this one's too, but for the one across the ridge.
+      const double height = height_of(mix ^ rows[k] ^ met[k].mix);
+      if (height < least || (rule_ != nullptr && !is_wanted(next))) continue;
+      take(next, std::min(height, k == lowest ? second : low));
+    }
+  }
 }
 
 std::span<const std::uint32_t> SlabGrower::vertices_of(std::span<const std::uint32_t> members,
@@ -136,8 +149,10 @@ double SlabGrower::dot_of(const double* normal, std::uint32_t row) const {
   return sum;
 }
 
+bool SlabGrower::meets_all_points() const { return space_.table().count() <= kFewRows; }
+
 /// Where the hull is convex the seed's own plane supports it, and a flood needs the products of few vertices.
-void SlabGrower::flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const {
+void SlabGrower::set_own_plane(GrownSlab& slab) const {
   slab.plane.height = -HUGE_VAL;
   for (const PointId id : complex_.vertices(SimplexId{slab.seed})) {
     const std::uint32_t row = space_.row_of(id);
@@ -146,7 +161,6 @@ void SlabGrower::flood_from_own_plane(GrownSlab& slab, double width, SlabScratch
     slab.plane.height = dot;
     slab.plane.highest = row;
   }
-  flood(slab.seed, slab.plane, width, scratch);
 }
 
 void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
@@ -154,9 +168,9 @@ void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
   plane.low = 0.0;
 }
 
-/// The plane that makes the seed narrowest where points are above it, and what lies below that.
-void SlabGrower::flood_from_fitted_plane(GrownSlab& slab, double width, const CoverEffort& effort,
-                                         SlabScratch& scratch) const {
+/// The plane that makes the seed narrowest where points are above it.
+void SlabGrower::fit_plane_to_seed(GrownSlab& slab, double width, const CoverEffort& effort,
+                                   SlabScratch& scratch) const {
   const std::uint32_t alone[] = {slab.seed};
   const std::span<const std::uint32_t> vertices = vertices_of(alone, scratch);
   slab.plane = measure_plane(space_, slab.plane.normal, vertices, scratch.fit);
@@ -164,7 +178,50 @@ void SlabGrower::flood_from_fitted_plane(GrownSlab& slab, double width, const Co
   if (slab.plane.width() > width)
     slab.plane = narrow_plane(space_, slab.plane, vertices, 4 * effort.fit_steps, scratch.fit);
   slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
-  flood(slab.seed, slab.plane, width, scratch);
+}
+
+/// scratch.vertices: those less than `width` below the plane; products of all for the flood to come.
+void SlabGrower::find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const {
+  const double least = plane.height - kDepthRoom * width;
+  ++scratch.vertex_pass;
+  scratch.vertices.clear();
+  for (std::uint32_t row = 0; row < space_.vertex_count(); ++row) {
+    scratch.dots[row] = dot_of(plane.normal.data(), row);
+    scratch.vertex_stamp[row] = scratch.vertex_pass;
+    if (scratch.dots[row] >= least) scratch.vertices.push_back(row);
+  }
+}
+
+/// Turns the plane, which the last measured one must be, to all vertices less than `width` below it. That
+/// makes room for more, and loses none: the slab is grown once, when the plane is what it will be.
+void SlabGrower::turn_to_vertices_below(FittedPlane& plane, double width, const CoverEffort& effort,
+                                        SlabScratch& scratch) const {
+  find_vertices_below(plane, width, scratch);
+  for (unsigned turn = 0; turn < effort.refits; ++turn) {
+    const std::size_t count = scratch.vertices.size();
+    plane.low = plane.height;
+    for (const std::uint32_t row : scratch.vertices) plane.low = std::min(plane.low, scratch.dots[row]);
+    plane = narrow_plane(space_, plane, scratch.vertices, effort.fit_steps, scratch.fit);
+    find_vertices_below(plane, width, scratch);
+    if (scratch.vertices.size() <= count) return;
+  }
+}
+
+/// The same by what the slab holds, which is grown again each time.
+void SlabGrower::turn_to_members(GrownSlab& slab, double width, const CoverEffort& effort,
+                                 SlabScratch& scratch) const {
+  for (unsigned refit = 0; refit < effort.refits; ++refit) {
+    const std::span<const std::uint32_t> vertices = vertices_of(slab.members, scratch);
+    FittedPlane turned = slab.plane;
+    turned.low = lowest_dot(space_, turned.normal, vertices);
+    turned = narrow_plane(space_, turned, vertices, effort.fit_steps, scratch.fit);
+    ++scratch.vertex_pass;
+    flood(slab.seed, turned, width, SIZE_MAX, scratch);
+    if (scratch.grown.size() <= slab.members.size()) break;
+    slab.plane = std::move(turned);
+    slab.members.swap(scratch.grown);
+    slab.depths.swap(scratch.depths);
+  }
 }
 
 void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const {
@@ -173,14 +230,15 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   slab.plane.height = slab.plane.low = 0.0;
   slab.members.assign(1, slab.seed);
   slab.depths.assign(1, 0.0f);
-  bool is_measured = false;
   if (is_convex_) {
-    flood_from_own_plane(slab, width, scratch);
+    set_own_plane(slab);
   } else {
     if (!may_extend(slab.seed, slab.plane.normal.data(), width)) return;
-    flood_from_fitted_plane(slab, width, effort, scratch);
-    is_measured = true;
+    fit_plane_to_seed(slab, width, effort, scratch);
   }
+  const bool turns_before = rule_ == nullptr && meets_all_points();
+  ++scratch.vertex_pass;
+  flood(slab.seed, slab.plane, width, turns_before ? kWorthTurning : SIZE_MAX, scratch);
   if (scratch.grown.size() > 1) {
     slab.members.swap(scratch.grown);
     slab.depths.swap(scratch.depths);
@@ -188,18 +246,16 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
     slab.plane.height = 0.0;
   }
   if (slab.members.size() < (effort.refits <= 1 ? kWorthTurning : 2)) return;
-  if (!is_measured) measure(slab.plane, scratch);
-  for (unsigned refit = 0; refit < effort.refits; ++refit) {
-    const std::span<const std::uint32_t> vertices = vertices_of(slab.members, scratch);
-    FittedPlane turned = slab.plane;
-    turned.low = lowest_dot(space_, turned.normal, vertices);
-    turned = narrow_plane(space_, turned, vertices, effort.fit_steps, scratch.fit);
-    flood(slab.seed, turned, width, scratch);
-    if (scratch.grown.size() <= slab.members.size()) break;
-    slab.plane = std::move(turned);
-    slab.members.swap(scratch.grown);
-    slab.depths.swap(scratch.depths);
-  }
+  if (is_convex_) measure(slab.plane, scratch);
+  if (!turns_before || slab.members.size() < kWorthTurning)
+    return turn_to_members(slab, width, effort, scratch);
+  FittedPlane turned = slab.plane;
+  turn_to_vertices_below(turned, width, effort, scratch);
+  flood(slab.seed, turned, width, SIZE_MAX, scratch);
+  if (scratch.grown.size() < slab.members.size()) return;  // a vertex of the seed lost by rounding
+  slab.plane = std::move(turned);
+  slab.members.swap(scratch.grown);
+  slab.depths.swap(scratch.depths);
 }
 
 }  // namespace ndhull

@@ -34,16 +34,21 @@ struct GrownSlab {
   std::vector<float> depths;           ///< [distance] of each below the plane's height, rounded up
 };
 
+/// What a flood knows of a simplex without looking at its vertices.
+struct MetSimplex {
+  std::uint32_t flood = 0;  ///< the last that met it
+  std::uint32_t mix = 0;    ///< XOR of its vertices (rows of the space)
+};
+
 /// What one thread needs to grow slabs, and to fit their planes.
 struct SlabScratch {
-  SlabScratch(std::size_t row_count, std::size_t vertex_count)
-      : stamp(row_count, 0), vertex_stamp(vertex_count, 0), dots(vertex_count) {}
+  SlabScratch(const SimplicialComplex& complex, const WidthSpace& space);
   PlaneFitWork fit;
   PlaneFitWork rule_fit;                    // of the rule, while a slab grows by what `fit` has measured
-  std::vector<std::uint32_t> stamp;         // per row of the complex: last flood that met it
+  std::vector<MetSimplex> met;              // per row of the complex
   std::vector<std::uint32_t> vertex_stamp;  // per row of the space: last pass over vertices
   std::uint32_t flood = 0, vertex_pass = 0;
-  std::vector<double> dots;  // per row of the space: product with the flood's normal, once it was asked for
+  std::vector<double> dots;  // per row of the space with this pass: product with the flood's normal
   std::vector<std::uint32_t> vertices, grown;
   std::vector<float> depths;
   RulePlane compared;
@@ -63,6 +68,9 @@ class SlabGrower {
   ///       space is large.
   void grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
 
+  /// So few points that each large slab has its products with all of them.
+  bool meets_all_points() const;
+
   /// The different vertices, as rows of the space.
   std::span<const std::uint32_t> vertices_of(std::span<const std::uint32_t> members,
                                              SlabScratch& scratch) const;
@@ -70,13 +78,19 @@ class SlabGrower {
  private:
   bool may_extend(std::uint32_t seed, const double* normal, double width) const;
   double dot_of(const double* normal, std::uint32_t row) const;
-  void flood_from_own_plane(GrownSlab& slab, double width, SlabScratch& scratch) const;
-  void flood_from_fitted_plane(GrownSlab& slab, double width, const CoverEffort& effort,
-                               SlabScratch& scratch) const;
+  void set_own_plane(GrownSlab& slab) const;
+  void fit_plane_to_seed(GrownSlab& slab, double width, const CoverEffort& effort,
+                         SlabScratch& scratch) const;
   void measure(FittedPlane& plane, SlabScratch& scratch) const;
-  void flood(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
+  void find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const;
+  void turn_to_vertices_below(FittedPlane& plane, double width, const CoverEffort& effort,
+                              SlabScratch& scratch) const;
+  void turn_to_members(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
+  void flood(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
+             SlabScratch& scratch) const;
   template <std::size_t D>
-  void flood_in(std::uint32_t seed, const FittedPlane& plane, double width, SlabScratch& scratch) const;
+  void flood_in(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
+                SlabScratch& scratch) const;
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
