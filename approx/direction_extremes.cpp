@@ -86,7 +86,11 @@ RowList find_direction_extremes(const PointShards& shards, const Frame& frame, d
       double length_sq = 0.0;
       for (std::size_t r = 0; r < rank; ++r) {
         double y = 0.0;
-        for (std::size_t k = 0; k < dimension; ++k) y += frame.map[r * dimension + k] * shifted[k];
+        if (frame.is_diagonal) {
+          y = frame.map[r * dimension + r] * shifted[r];
+        } else {
+          for (std::size_t k = 0; k < dimension; ++k) y += frame.map[r * dimension + k] * shifted[k];
+        }
         point[r] = y;
         length_sq += y * y;
       }
