@@ -75,7 +75,7 @@ void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double w
     for (std::size_t k = 0; k < D; ++k) sum += height_of(row_of(vertices_of_row(simplex)[k]));
     return rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit);
   };
-  constexpr std::size_t kAhead = 2;
+  constexpr std::size_t kAhead = 2;  // simplices whose neighbours' marks are asked for before their turn
   const auto take = [&](std::uint32_t simplex, double low) {
     scratch.grown.push_back(simplex);
     scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
