@@ -245,9 +245,12 @@ void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
   forget_waiting();  // the caller has looked at all
   const double least = std::nextafter(least_height(work_), HUGE_VAL);
   for (const LocatedPoint& point : points) {
-    if (work_.heights.height(point.point.value) != OutsideHeights::kNotOutside) continue;
-    const double height = height_above(work_, point.simplex.value, point.gauge);
-    push_outside(work_, point.point.value, point.simplex.value, std::max(height, least));
+    const double height = std::max(least, height_above(work_, point.simplex.value, point.gauge));
+    const double known = work_.heights.height(point.point.value);
+    if (known >= height) continue;
+    // Growth that has paused left it above another simplex, less far.
+    if (known != OutsideHeights::kNotOutside) take_from_outside(work_, point.point.value);
+    push_outside(work_, point.point.value, point.simplex.value, height);
   }
   ++hull_.statistics.repair_rounds;
 }

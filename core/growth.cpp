@@ -102,6 +102,19 @@ void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, doub
   ++work.points_outside;
 }
 
+void take_from_outside(GrowthWork& work, std::uint32_t point) {
+  const std::uint32_t row = work.heights.row(point);
+  std::uint32_t next = work.complex.outside_head[row];
+  work.complex.outside_head[row] = 0;
+  while (next != 0) {  // all others again: the furthest of them comes first
+    const std::uint32_t member = next - 1;
+    next = work.next_outside[member];
+    --work.points_outside;
+    if (member != point) push_outside(work, member, row, work.heights.height(member));
+  }
+  work.heights.remove(point);
+}
+
 void forget_outside(GrowthWork& work) {
   if (work.points_outside == 0) return;
   for (std::size_t row = 0; row < work.complex.row_count; ++row) {

@@ -107,4 +107,7 @@ void forget_outside(GrowthWork& work);
 /// furthest point of a set comes first, the rest in no order.
 void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height);
 
+/// Takes `point` out of the outside set that it is in. Cost O(points in the set).
+void take_from_outside(GrowthWork& work, std::uint32_t point);
+
 }  // namespace ndhull

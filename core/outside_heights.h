@@ -37,6 +37,8 @@ class OutsideHeights {
   }
   void remove(std::uint32_t point) { write(0, point, kNotOutside); }
 
+  /// Of a point in an outside set: whose.
+  std::uint32_t row(std::uint32_t point) const { return rows_[point]; }
   double height(std::uint32_t point) const { return levels_[0].values[point]; }
   /// Cost  amortised some dozen comparisons for each point written; where many points are equally far, one
   /// for

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/growth.h"
 
 namespace ndhull {
 namespace {
@@ -67,6 +72,50 @@ TEST(OutsideHeights, KeepsWhatIsOutsideWhenThereAreMorePoints) {
   heights.remove(4999);
   heights.remove(9);
   EXPECT_EQ(heights.furthest().height, OutsideHeights::kNotOutside);
+}
+
+/// The points of an outside set, as its list has them.
+std::vector<std::uint32_t> points_of(const GrowthWork& work, std::uint32_t row) {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t next = work.complex.outside_head[row]; next != 0; next = work.next_outside[next - 1])
+    points.push_back(next - 1);
+  return points;
+}
+
+TEST(OutsideSets, APointTakenOutLeavesTheOthersTheFurthestFirst) {
+  std::mt19937 random(3);
+  std::vector<double> rows(300 * 4);
+  for (double& x : rows) x = static_cast<double>(random()) * 0x1p-32;
+  const PointView points = PointView::row_major(rows.data(), 300, 4);
+  const Frame frame = fit_frame(points);
+  std::vector<double> coordinates(300 * frame.rank + 8);
+  map_points(points, frame, coordinates.data());
+  GrowthWork work;
+  work.rank = frame.rank;
+  work.point_count = 300;
+  work.points = coordinates.data();
+  start_growth(work, frame.simplex, FirstPoints());
+  std::size_t taken = 0;
+  for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {
+    for (std::vector<std::uint32_t> left = points_of(work, row); !left.empty(); ++taken) {
+      const std::uint32_t point = left[taken % 3 * (left.size() - 1) / 2];  // first, middle, last
+      const std::uint64_t outside = work.points_outside;
+      take_from_outside(work, point);
+      EXPECT_EQ(work.points_outside, outside - 1);
+      EXPECT_EQ(work.heights.height(point), OutsideHeights::kNotOutside);
+      left.erase(std::find(left.begin(), left.end(), point));
+      std::vector<std::uint32_t> found = points_of(work, row);
+      for (const std::uint32_t other : found)
+        EXPECT_LE(work.heights.height(other), work.heights.height(found[0]));
+      std::vector<std::uint32_t> expected = left;
+      std::sort(expected.begin(), expected.end());
+      left = found;
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, expected);
+    }
+  }
+  EXPECT_GT(taken, 100U);
+  EXPECT_EQ(work.points_outside, 0U);
 }
 
 }  // namespace
