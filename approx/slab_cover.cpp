@@ -50,17 +50,14 @@ SlabCover::SlabCover(const SimplicialComplex& complex, const WidthSpace& space, 
       is_convex_(is_convex),
       grower_(complex, space, rule, is_convex),
       seeds_(complex, space, rule == nullptr && grower_.meets_all_points()),
-      scratch_([this] { return SlabScratch(complex_, space_); }) {
-  for (std::uint32_t row = 0; row < complex.row_count; ++row)
-    live_count_ += complex.state[row] == SimplexState::kLive ? 1u : 0u;
-}
+      scratch_([this] { return SlabScratch(complex_, space_); }) {}
 
 Covering SlabCover::cover(double width, const CoverEffort& effort) {
   slabs_.clear();
   members_.clear();
   depths_.clear();
-  members_.reserve(2 * live_count_);
-  depths_.reserve(2 * live_count_);
+  members_.reserve(2 * live_count());
+  depths_.reserve(2 * live_count());
   seeds_.clear();
   for (unsigned round = 1; round <= effort.choices; ++round) {
     seeds_.open(round);

@@ -39,7 +39,7 @@ class SlabCover {
   ///       thread, 8 for each place in a slab.
   Covering cover(double width, const CoverEffort& effort);
 
-  std::size_t live_count() const { return live_count_; }
+  std::size_t live_count() const { return seeds_.live_count(); }
 
  private:
   struct Slab {
@@ -68,7 +68,6 @@ class SlabCover {
   SlabGrower grower_;
   SlabSeeds seeds_;
   std::vector<GrownSlab> batch_;
-  std::size_t live_count_ = 0;
   tbb::enumerable_thread_specific<SlabScratch> scratch_;
   std::vector<Slab> slabs_;
   std::vector<std::uint32_t> members_;  // of all slabs

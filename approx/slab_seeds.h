@@ -36,6 +36,7 @@ class SlabSeeds {
   /// These are in one more slab.
   void add_slab(std::span<const std::uint32_t> members);
 
+  std::size_t live_count() const { return live_count_; }
   /// Per row: slabs that hold it, at most 255.
   std::span<const std::uint8_t> hits() const { return hits_; }
 

@@ -205,7 +205,6 @@ class Grower {
   bool subridges_differ();
   bool cone_is_connected();
   std::uint32_t locate(const double* y, std::uint32_t row, double& gauge);
-  void drop_first(std::uint32_t row);
 
   GrowthWork& work_;
   double* planes_;
@@ -333,7 +332,7 @@ GrowthStop Grower<D>::run() {
       case Outcome::kPastLimit: return GrowthStop::kFacetLimit;
       case Outcome::kRejected:  // certify will measure what it costs
         ++work_.counters.set_aside;
-        drop_first(row);
+        take_from_outside(work_, apex_id);
         break;
     }
   }

@@ -35,21 +35,6 @@ std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gaug
   return row;
 }
 
-// The rest of the set is in no order: find its furthest point and put it first.
-template <std::size_t D>
-void Grower<D>::drop_first(std::uint32_t row) {
-  std::uint32_t rest = work_.next_outside[head_[row] - 1];
-  work_.heights.remove(head_[row] - 1);
-  head_[row] = 0;
-  --work_.points_outside;
-  while (rest != 0) {
-    const std::uint32_t id = rest - 1;
-    rest = work_.next_outside[id];
-    --work_.points_outside;
-    push_outside(work_, id, row, work_.heights.height(id));
-  }
-}
-
 // Frees the visible simplices begin .. end and lists those with points in their outside sets.
 template <std::size_t D>
 void Grower<D>::free_visible(std::size_t begin, std::size_t end, std::vector<std::uint32_t>& with_points) {

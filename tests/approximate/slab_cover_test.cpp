@@ -116,7 +116,7 @@ TEST(SlabSeedsLaw, BatchesEndWhenNoSimplexIsOpen) {
           EXPECT_EQ(seeds.hits()[row], 0);
       }
     }
-    EXPECT_GT(slabs, 2 * sphere.work.complex.row_count / members / 2);
+    EXPECT_GT(slabs, sphere.work.complex.row_count / members);
   }
 }
 
