@@ -1,5 +1,7 @@
 #include "approx/outer_volume.h"
 
+#include <tbb/task_arena.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include "approx/boundedness.h"
 #include "approx/plane_polytope.h"
 #include "approx/subspace.h"
+#include "core/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -40,17 +43,22 @@ double fewest_vertices(std::size_t rank, std::size_t facets) {
 ///        interior point is below the facet's plane; below the outer plane t is (height + outer) / (height +
 ///        inner) at most. The cones fill the space.
 double scale_of_outer_polytope(const Hull& hull) {
+  constexpr std::size_t kFacetsAtATime = 4096;
+  std::vector<double> scales((hull.facet_count() + kFacetsAtATime - 1) / kFacetsAtATime, 1.0);
+  for_each_block(hull.facet_count(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    double& scale = scales[begin / kFacetsAtATime];
+    for (std::size_t id = begin; id < end; ++id) {
+      const FacetId facet{static_cast<std::uint32_t>(id)};
+      const double unit = hull.input_per_length_unit(facet);
+      double height = -hull.centred_offset(facet);
+      for (std::size_t k = 0; k < hull.dimension; ++k)
+        height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
+      const double lowest = height + hull.inner_offset(facet) * unit;
+      scale = lowest > 0.0 ? std::max(scale, (height + hull.outer_offset(facet) * unit) / lowest) : HUGE_VAL;
+    }
+  });
   double scale = 1.0;
-  for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
-    const FacetId facet{id};
-    const double unit = hull.input_per_length_unit(facet);
-    double height = -hull.centred_offset(facet);
-    for (std::size_t k = 0; k < hull.dimension; ++k)
-      height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
-    const double lowest = height + hull.inner_offset(facet) * unit;
-    if (!(lowest > 0.0)) return HUGE_VAL;
-    scale = std::max(scale, (height + hull.outer_offset(facet) * unit) / lowest);
-  }
+  for (const double of_block : scales) scale = std::max(scale, of_block);
   return scale;
 }
 
@@ -82,7 +90,9 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
                          unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, ""};
   constexpr double kNarrow = 1.0 + 1e-10;
-  const double scale = facets.empty() ? scale_of_outer_polytope(hull) : HUGE_VAL;
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  const double scale =
+      facets.empty() ? arena.execute([&] { return scale_of_outer_polytope(hull); }) : HUGE_VAL;
   const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
   if (scale <= kNarrow) return {most, ""};
   const OuterVolume too_many{

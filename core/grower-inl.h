@@ -145,7 +145,7 @@ class Grower {
  private:
   // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
   // result.
-  static constexpr std::size_t kManyVisible = 192, kManyRidges = 768, kRidgesInBlock = 256;
+  static constexpr std::size_t kManyVisible = 96, kManyRidges = 192, kRidgesInBlock = 64;
   // More would spend their time on marking what the others found.
   static constexpr std::size_t kMostThreads = 8;
 
@@ -194,7 +194,8 @@ class Grower {
       work(std::size_t{0}, count);
     }
   }
-  void call_team();
+  bool has_team();
+  void share_searches();
   enum class Outcome { kAdded, kRejected, kNoRoom, kPastLimit };
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
@@ -218,7 +219,7 @@ class Grower {
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
   std::size_t threads_;
-  std::unique_ptr<Team> team_;  // from the first large insertion on, where there are threads
+  std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;
   std::size_t touched_rows_ = 0;                         // rows that have memory, as far as is known
   std::size_t shared_visible_ = 0, shared_horizon_ = 0;  // found when all shares last had the same marks
@@ -269,7 +270,7 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
     const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
     if (certain) shift = 0.0;
-    call_team();
+    share_searches();
     make_cone(apex_id, shift);
     clock.lap(work_.counters.seconds_cone);
     match_cone();
@@ -292,12 +293,17 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
   return Outcome::kRejected;
 }
 
-/// Starts the other threads at the first insertion that they can help with.
+/// Starts the other threads, if there are any and they are not there yet.
 template <std::size_t D>
-void Grower<D>::call_team() {
-  if (team_ || threads_ == 1 || horizon_count_ < kManyRidges) return;
-  team_ = std::make_unique<Team>(threads_);
-  make_shares();
+bool Grower<D>::has_team() {
+  if (!team_ && threads_ > 1) team_ = std::make_unique<Team>(threads_);
+  return team_ != nullptr;
+}
+
+/// From the first large insertion on searches are shared.
+template <std::size_t D>
+void Grower<D>::share_searches() {
+  if (shares_.empty() && horizon_count_ >= kManyRidges && has_team()) make_shares();
 }
 
 template <std::size_t D>

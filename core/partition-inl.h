@@ -89,7 +89,7 @@ void Grower<D>::partition(std::uint32_t apex) {
 // Each point starts where the one before it ended; each block starts afresh.
 template <std::size_t D>
 void Grower<D>::place_moved() {
-  constexpr std::size_t kPointsInBlock = 64;
+  constexpr std::size_t kPointsInBlock = 64, kManyPoints = 1024;
   const double least = least_height(work_);
   new_places_.resize(moved_.size());
   const auto place = [&](std::size_t begin, std::size_t end) {
@@ -103,10 +103,11 @@ void Grower<D>::place_moved() {
       if (height > least) new_places_[i] = {found, height};
     }
   };
-  if (team_ && moved_.size() > kPointsInBlock) {
+  if (moved_.size() > kPointsInBlock && (team_ || (moved_.size() >= kManyPoints && has_team()))) {
     team_->for_each_block(moved_.size(), kPointsInBlock, place);
   } else {
-    for_each_block(moved_.size(), kPointsInBlock, place);
+    for (std::size_t begin = 0; begin < moved_.size(); begin += kPointsInBlock)
+      place(begin, std::min(begin + kPointsInBlock, moved_.size()));
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     if (new_places_[i].row != kNoRow) {

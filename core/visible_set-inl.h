@@ -118,7 +118,7 @@ std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t
   FirstMet<D> lists[2];
   std::size_t tested = begin, listed = begin, turn = 0;
   const bool is_open = result.visible == visible_.data();
-  const std::size_t most = team_ ? kManyVisible : visible_.capacity();
+  const std::size_t most = shares_.empty() ? visible_.capacity() : kManyVisible;
   for (;;) {
     std::size_t limit = end;
     if (is_open) limit = result.visible_count - listed < most ? result.visible_count : listed;
@@ -149,7 +149,7 @@ void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double t
   highest_hidden_ = -HUGE_VAL;
   shared_visible_ = shared_horizon_ = 0;
   for (std::size_t begin = 0; begin < visible_count_;) {
-    if (team_ && visible_count_ - begin >= kManyVisible) {
+    if (!shares_.empty() && visible_count_ - begin >= kManyVisible) {
       const std::size_t end = visible_count_;
       search_wave(apex, threshold, begin, end);
       begin = end;
