@@ -37,7 +37,15 @@ struct PointView {
   }
   /// Copies point `row` to `out` (dimension doubles).
   void copy_row(std::size_t row, double* out) const {
-    for (std::size_t column = 0; column < dimension; ++column) out[column] = at(row, column);
+    const std::size_t first = row * row_stride;
+    if (type == ScalarType::kFloat64) {
+      const double* const from = static_cast<const double*>(data) + first;
+      for (std::size_t column = 0; column < dimension; ++column) out[column] = from[column * column_stride];
+    } else {
+      const float* const from = static_cast<const float*>(data) + first;
+      for (std::size_t column = 0; column < dimension; ++column)
+        out[column] = static_cast<double>(from[column * column_stride]);
+    }
   }
 };
 

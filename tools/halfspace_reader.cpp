@@ -92,7 +92,7 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
 }
 
 HalfspaceFile read_npy_halfspaces(FileBytes bytes, const std::string& name) {
-  const PointFile points = read_npy(std::move(bytes), name);
+  const PointFile points = read_npy(std::move(bytes), name, kKeptFileBytes);
   const PointView view = points.view();
   HalfspaceFile file;
   file.dimension = view.dimension - 1;

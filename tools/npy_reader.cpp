@@ -182,7 +182,7 @@ std::size_t check_header(const NpyHeader& header, std::size_t file_size, const s
 
 }  // namespace
 
-PointFile read_npy(FileBytes bytes, const std::string& name) {
+PointFile read_npy(FileBytes bytes, const std::string& name, std::size_t kept_bytes) {
   const NpyHeader header = read_npy_header(bytes.view(), name);
   const std::size_t count = check_header(header, bytes.view().size(), name);
   const char* const data = bytes.view().data() + header.data_offset;
@@ -202,13 +202,14 @@ PointFile read_npy(FileBytes bytes, const std::string& name) {
     return {name, std::move(values), view};
   }
 
+  const bool gives_back = bytes.is_mapping() && bytes.view().size() > kept_bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 22;  // elements: a file need not fit into memory
   std::size_t bad = 0;
   for (std::size_t chunk = 0; chunk < count && bad == chunk; chunk += kChunk) {
     const std::size_t used = std::min(kChunk, count - chunk), size = is_float ? 4 : 8;
     bad = chunk + (is_float ? find_non_finite<std::uint32_t, 23>(data + chunk * size, used)
                             : find_non_finite<std::uint64_t, 52>(data + chunk * size, used));
-    if (count > kChunk) bytes.give_back(header.data_offset + (chunk + used) * size);
+    if (gives_back) bytes.give_back(header.data_offset + (chunk + used) * size);
   }
   if (bad != count) {
     float single = 0.0F;
@@ -221,7 +222,7 @@ PointFile read_npy(FileBytes bytes, const std::string& name) {
   if (reinterpret_cast<std::uintptr_t>(data) % (is_float ? alignof(float) : alignof(double)) == 0) {
     view.type = is_float ? ScalarType::kFloat32 : ScalarType::kFloat64;
     view.data = data;
-    view.is_file_mapping = bytes.is_mapping();
+    view.is_file_mapping = gives_back;
     return {name, std::move(bytes), view};
   }
   std::vector<double> values(count);

@@ -1,6 +1,7 @@
 // NumPy arrays as points, without a copy where the numbers are float or double.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "tools/point_reader.h"
@@ -16,6 +17,7 @@ namespace ndhull {
 ///           kDimensionTooLow, kEmptyInput   no columns, no rows
 ///           kTruncated, kWrongCount         fewer or more bytes than the shape says
 ///           kNotFinite, kBadNumber          with row and column counted from 0, as NumPy does
-PointFile read_npy(FileBytes bytes, const std::string& name);
+/// `kept_bytes`: as read_points has it.
+PointFile read_npy(FileBytes bytes, const std::string& name, std::size_t kept_bytes);
 
 }  // namespace ndhull

@@ -95,12 +95,14 @@ NumberTable read_number_text(const TextSource& source, const std::string& extens
   return !is_table && looks_like_qhull_text(source) ? read_qhull_text(source) : read_table(source);
 }
 
-PointFile read_points(const std::string& path) { return parse_points(FileBytes::read(path), path); }
+PointFile read_points(const std::string& path, std::size_t kept_bytes) {
+  return parse_points(FileBytes::read(path), path, kept_bytes);
+}
 
-PointFile parse_points(FileBytes bytes, const std::string& path) {
+PointFile parse_points(FileBytes bytes, const std::string& path, std::size_t kept_bytes) {
   const std::string name = display_name(path);
   const std::string extension = extension_of(path);
-  if (extension == "npy" || looks_like_npy(bytes.view())) return read_npy(std::move(bytes), name);
+  if (extension == "npy" || looks_like_npy(bytes.view())) return read_npy(std::move(bytes), name, kept_bytes);
   const TextSource source = text_source_of(bytes, name);
   source.require_content();
   if (extension == "ext" || extension == "ine" || looks_like_cdd(source)) {
