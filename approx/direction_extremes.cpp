@@ -2,62 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "approx/direction_extremes_kernel.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
 namespace {
 
-/// Points that are multiplied with all directions at a time; their coordinates stay in the first-level cache.
-constexpr std::size_t kTile = 128;
-
-struct Extreme {
-  float product = -HUGE_VALF;
-  std::uint32_t id = 0xFFFF'FFFFu;
-  bool is_before(const Extreme& other) const {
-    return product != other.product ? product > other.product : id < other.id;
-  }
-};
+using Extreme = DirectionExtreme;
 
 /// One thread's look at some blocks.
 class Tile {
  public:
   Tile(const std::vector<float>& directions, std::size_t rank)
-      : directions_(directions), rank_(rank), values_(rank * kTile), best_(directions.size() / rank) {
-    ids_.reserve(kTile);
+      : directions_(directions),
+        rank_(rank),
+        columns_(rank * kExtremeTile),
+        best_(directions.size() / rank, Extreme{-HUGE_VALF}) {
+    ids_.reserve(kExtremeTile);
   }
 
   void add(const double* point, std::uint32_t id) {
-    for (std::size_t k = 0; k < rank_; ++k) values_[k * kTile + ids_.size()] = static_cast<float>(point[k]);
+    for (std::size_t k = 0; k < rank_; ++k)
+      columns_[k * kExtremeTile + ids_.size()] = static_cast<float>(point[k]);
     ids_.push_back(id);
-    if (ids_.size() == kTile) finish();
+    if (ids_.size() == kExtremeTile) finish();
   }
 
   /// Of the points added, in ascending order, the furthest along each direction.
   const std::vector<Extreme>& finish() {
-    float products[kTile];
-    for (std::size_t direction = 0; direction < best_.size() && !ids_.empty(); ++direction) {
-      const float* const u = directions_.data() + direction * rank_;
-      for (float& product : products) product = 0.0F;
-      for (std::size_t k = 0; k < rank_; ++k) {
-        const float* const column = values_.data() + k * kTile;
-        for (std::size_t i = 0; i < kTile; ++i) products[i] += u[k] * column[i];
-      }
-      float highest = best_[direction].product;
-      for (std::size_t i = 0; i < kTile; ++i) highest = std::max(highest, products[i]);
-      if (highest == best_[direction].product) continue;
-      for (std::size_t i = 0; i < ids_.size(); ++i)
-        if (products[i] > best_[direction].product) best_[direction] = {products[i], ids_[i]};
-    }
+    raise_extremes(columns_.data(), rank_, ids_, directions_.data(), best_);
     ids_.clear();
-    std::fill(values_.begin(), values_.end(), 0.0F);
     return best_;
   }
 
  private:
   const std::vector<float>& directions_;
   std::size_t rank_;
-  std::vector<float> values_;  // rank x kTile; 0 where there is no point
+  std::vector<float> columns_;  // rank x kExtremeTile
   std::vector<std::uint32_t> ids_;
   std::vector<Extreme> best_;
 };
@@ -99,7 +82,7 @@ RowList find_direction_extremes(const PointShards& shards, const Frame& frame, d
     }
     found[index] = tile.finish();
   });
-  std::vector<Extreme> best(count);
+  std::vector<Extreme> best(count, Extreme{-HUGE_VALF});
   for (const std::vector<Extreme>& block : found)
     for (std::size_t i = 0; i < count; ++i)
       if (block[i].is_before(best[i])) best[i] = block[i];
@@ -107,11 +90,14 @@ RowList find_direction_extremes(const PointShards& shards, const Frame& frame, d
   // Each process says product, id and coordinates of its own; an id that is too large: it has none.
   const std::size_t entry = 2 + dimension;
   std::vector<double> mine(count * entry, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<std::uint32_t> by_id(count);
+  std::iota(by_id.begin(), by_id.end(), 0u);
+  std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return best[a].id < best[b].id; });
+  RowCopier copier(shards);
+  for (const std::uint32_t i : by_id) {
     mine[i * entry] = static_cast<double>(best[i].product);
     mine[i * entry + 1] = static_cast<double>(best[i].id);
-    if (best[i].id == Extreme{}.id) continue;
-    RowCopier(shards).copy(best[i].id, mine.data() + i * entry + 2);
+    if (best[i].id != Extreme::kNoPoint) copier.copy(best[i].id, mine.data() + i * entry + 2);
   }
   const std::vector<double> all = shards.all_gather(std::move(mine));
   struct Row {
@@ -120,7 +106,7 @@ RowList find_direction_extremes(const PointShards& shards, const Frame& frame, d
   };
   std::vector<Row> rows;
   for (std::size_t i = 0; i < count; ++i) {
-    Extreme furthest;
+    Extreme furthest{-HUGE_VALF};
     const double* coordinates = nullptr;
     for (std::size_t at = i * entry; at < all.size(); at += count * entry) {
       const Extreme extreme{static_cast<float>(all[at]), static_cast<std::uint32_t>(all[at + 1])};

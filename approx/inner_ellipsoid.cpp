@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/blocks.h"
 #include "core/dense_views.h"
 #include "core/dimension_switch.h"
 
@@ -34,49 +35,75 @@ InnerEllipsoid::InnerEllipsoid(const Frame& frame, const double* points, std::si
   const Eigen::LLT<Matrix> covariance(centred.transpose() * centred / static_cast<double>(count));
   const Matrix factor = covariance.matrixL();
   mean_.assign(mean.data(), mean.data() + rank);
-  if (covariance.info() != Eigen::Success || !factor.allFinite() || factor.diagonal().minCoeff() <= 0.0)
+  if (dimension_ > kMaxRank || covariance.info() != Eigen::Success || !factor.allFinite() ||
+      factor.diagonal().minCoeff() <= 0.0)
     return;
   factor_.assign(factor.data(), factor.data() + rank * rank);
   for (Eigen::Index i = 0; i < rank; ++i) inverse_pivots_.push_back(1.0 / factor(i, i));
 }
 
+/// The largest radius, in units of the ellipsoid, that is proven to be below this plane.
+double InnerEllipsoid::radius_below(std::span<const double> plane) const {
+  double at_mean = 0.0, length_sq = 0.0, slope_sq = 0.0, sizes_sq = 0.0;
+  for (std::size_t i = 0; i < rank_; ++i) {
+    at_mean += plane[i] * mean_[i];
+    length_sq += plane[i] * plane[i];
+    double slope = 0.0, size = 0.0;
+    for (std::size_t k = i; k < rank_; ++k) {  // the factor is a lower triangle
+      const double term = factor_[k * rank_ + i] * plane[k];
+      slope += term;
+      size += std::abs(term);
+    }
+    slope_sq += slope * slope;
+    sizes_sq += size * size;
+  }
+  const double below = (1.0 - kMargin) * (1.0 - at_mean) - std::sqrt(length_sq) * rounding_;
+  const double substitution = static_cast<double>(rank_ + 2) * kUnitRoundoff;
+  return below / (std::sqrt(slope_sq) + substitution * std::sqrt(sizes_sq));
+}
+
 void InnerEllipsoid::fit(const SimplicialComplex& complex) {
+  constexpr std::size_t kRowsAtATime = 4096;
   radius_sq_ = 0.0;
   if (factor_.empty()) return;
-  const auto rank = static_cast<Eigen::Index>(rank_);
-  const Eigen::Map<const Matrix> factor(factor_.data(), rank, rank);
-  const Eigen::Map<const Vector> mean(mean_.data(), rank);
-  const Matrix sizes = factor.cwiseAbs();
-  double radius = HUGE_VAL;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    if (complex.state[row] != SimplexState::kLive) continue;
-    const Eigen::Map<const Vector> plane(complex.plane(SimplexId{row}).data(), rank);
-    const double below = (1.0 - kMargin) * (1.0 - plane.dot(mean)) - plane.norm() * rounding_;
-    const double substitution = static_cast<double>(rank_ + 2) * kUnitRoundoff;
-    const double slope =
-        (factor.transpose() * plane).norm() + substitution * (sizes.transpose() * plane.cwiseAbs()).norm();
-    radius = std::min(radius, below / slope);
-  }
+  std::vector<double> radii((complex.row_count + kRowsAtATime - 1) / kRowsAtATime, HUGE_VAL);
+  for_each_block(complex.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    double& radius = radii[begin / kRowsAtATime];
+    for (std::size_t row = begin; row < end; ++row) {
+      if (complex.state[row] != SimplexState::kLive) continue;
+      radius = std::min(radius, radius_below(complex.plane(SimplexId{static_cast<std::uint32_t>(row)})));
+    }
+  });
+  const double radius = *std::min_element(radii.begin(), radii.end());
   if (radius > 0.0 && radius < HUGE_VAL) radius_sq_ = radius * radius;
 }
 
-bool InnerEllipsoid::contains(const double* x) const {
-  if (radius_sq_ == 0.0) return false;
-  std::array<double, kMaxRank> z;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < rank_; ++i) {
-    double y = -mean_[i];
-    if (is_diagonal_) {
-      y += map_[i * dimension_ + i] * (x[i] - centre_[i]);
-    } else {
-      for (std::size_t k = 0; k < dimension_; ++k) y += map_[i * dimension_ + k] * (x[k] - centre_[k]);
+// Loops over points inside, so that compilers vectorize them; each point's sums are in the order of its
+// columns.
+std::uint64_t InnerEllipsoid::contains(const double* points, std::size_t count) const {
+  if (radius_sq_ == 0.0 || count == 0) return 0;
+  using Lane = std::array<double, kPoints>;
+  std::array<Lane, kMaxRank> shifted, z;
+  Lane length_sq{};
+  for (std::size_t k = 0; k < dimension_; ++k)
+    for (std::size_t i = 0; i < kPoints; ++i)  // behind the last point that one again
+      shifted[k][i] = points[std::min(i, count - 1) * dimension_ + k] - centre_[k];
+  for (std::size_t row = 0; row < rank_; ++row) {
+    Lane y;
+    y.fill(-mean_[row]);
+    for (std::size_t k = is_diagonal_ ? row : 0; k < (is_diagonal_ ? row + 1 : dimension_); ++k)
+      for (std::size_t i = 0; i < kPoints; ++i) y[i] += map_[row * dimension_ + k] * shifted[k][i];
+    for (std::size_t k = 0; k < row; ++k)
+      for (std::size_t i = 0; i < kPoints; ++i) y[i] -= factor_[row * rank_ + k] * z[k][i];
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      z[row][i] = y[i] * inverse_pivots_[row];
+      length_sq[i] += z[row][i] * z[row][i];
     }
-    for (std::size_t k = 0; k < i; ++k) y -= factor_[i * rank_ + k] * z[k];
-    z[i] = y * inverse_pivots_[i];
-    sum += z[i] * z[i];
-    if (sum >= radius_sq_) return false;
   }
-  return true;
+  std::uint64_t inside = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    inside |= static_cast<std::uint64_t>(length_sq[i] < radius_sq_ ? 1 : 0) << i;
+  return inside;
 }
 
 }  // namespace ndhull

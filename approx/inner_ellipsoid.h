@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/frame.h"
@@ -22,16 +24,22 @@ class InnerEllipsoid {
  public:
   /// Contains nothing.
   InnerEllipsoid() = default;
-  /// The shape. `points`: count x frame.rank, in the frame. `reach`: no point is longer than this in the
-  /// frame, nor is the sum of the absolute terms of its coordinates.
+  /// The shape; of points in more than kMaxRank dimensions it contains nothing. `points`: count x frame.rank,
+  /// in the frame. `reach`: no point is longer than this in the frame, nor is the sum of the absolute terms
+  /// of its coordinates.
   InnerEllipsoid(const Frame& frame, const double* points, std::size_t count, double reach);
 
   /// The size: as large as the hull contains one.
   void fit(const SimplicialComplex& complex);
-  /// Is this point of the input well inside the hull? False when that is not proven.
-  bool contains(const double* x) const;
+  /// Points that are looked at together.
+  static constexpr std::size_t kPoints = 64;
+  /// Which of these points of the input are well inside the hull? A bit each; 0 when that is not proven.
+  /// Shapes  points: count x dimension, at most kPoints of them.
+  std::uint64_t contains(const double* points, std::size_t count) const;
 
  private:
+  double radius_below(std::span<const double> plane) const;
+
   std::size_t rank_ = 0, dimension_ = 0;
   bool is_diagonal_ = false;
   std::vector<double> centre_, map_;  // of the frame

@@ -1,12 +1,13 @@
 #include "approx/point_reduction.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "approx/direction_extremes.h"
 #include "approx/inner_ellipsoid.h"
+#include "approx/row_bits.h"
 #include "core/dimension_switch.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -57,22 +58,6 @@ void keep_furthest(std::vector<OutsidePoint>& points) {
   std::sort(points.begin(), points.end());
   if (points.size() > kNamed) points.resize(kNamed);
 }
-
-/// Rows begin .. end of the candidates of one part, as bits.
-struct Candidates {
-  explicit Candidates(std::size_t rows) : bits((rows + 63) / 64, ~std::uint64_t{0}) {
-    if (rows % 64 != 0) bits.back() >>= 64 - rows % 64;
-  }
-  template <class Call>
-  void for_each(std::size_t begin, std::size_t end, const Call& call) const {
-    for (std::size_t word = begin / 64; word < (end + 63) / 64; ++word)
-      for (std::uint64_t left = bits[word]; left != 0; left &= left - 1)
-        call(64 * word + static_cast<std::size_t>(std::countr_zero(left)));
-  }
-  void drop(std::size_t row) { bits[row / 64] &= ~(std::uint64_t{1} << (row % 64)); }
-
-  std::vector<std::uint64_t> bits;
-};
 
 class Reduction {
  public:
@@ -290,7 +275,7 @@ class Reduction {
   std::size_t drop_inside_block(const ShardBlock& block, std::vector<OutsidePoint>& named) {
     const std::size_t dimension = shards_.dimension;
     const PointShard& part = shards_.parts[block.part];
-    Candidates& candidates = candidates_[block.part];
+    RowBits& candidates = candidates_[block.part];
     std::vector<double> rows(kLocatedAtATime * dimension), mapped(kLocatedAtATime * dimension + kPadding);
     std::vector<std::size_t> ids;
     std::vector<LocatedPoint> located;
@@ -310,13 +295,29 @@ class Reduction {
       }
       ids.clear();
     };
+    // Behind those to be located: what comes next is looked at there, and moved up.
+    std::array<std::size_t, InnerEllipsoid::kPoints> next_ids;
+    std::size_t next = 0;
+    const auto look_at_next = [&] {
+      double* const first = rows.data() + ids.size() * dimension;
+      const std::uint64_t inside = ellipsoid_.contains(first, next);
+      for (std::size_t i = 0; i < next; ++i) {
+        if (inside >> i & 1) {
+          candidates.drop(next_ids[i]);
+          continue;
+        }
+        std::copy_n(first + i * dimension, dimension, rows.data() + ids.size() * dimension);
+        ids.push_back(next_ids[i]);
+      }
+      next = 0;
+      if (ids.size() + next_ids.size() > kLocatedAtATime) locate();
+    };
     candidates.for_each(block.begin, block.end, [&](std::size_t row) {
-      double* const x = rows.data() + ids.size() * dimension;
-      part.points.copy_row(row, x);
-      if (ellipsoid_.contains(x)) return candidates.drop(row);
-      ids.push_back(row);
-      if (ids.size() == kLocatedAtATime) locate();
+      part.points.copy_row(row, rows.data() + (ids.size() + next) * dimension);
+      next_ids[next++] = row;
+      if (next == next_ids.size()) look_at_next();
     });
+    look_at_next();
     if (!ids.empty()) locate();
     keep_furthest(named);
     return left;
@@ -369,8 +370,8 @@ class Reduction {
 
   const PointShards& shards_;
   std::vector<ShardBlock> blocks_;
-  std::vector<Candidates> candidates_;  // of each part
-  std::vector<double> low_, high_;      // of each column
+  std::vector<RowBits> candidates_;  // of each part
+  std::vector<double> low_, high_;   // of each column
   Frame frame_;
   std::vector<double> coordinates_;  // of the points that the hull is grown from
   std::size_t sample_size_ = 0;      // of these, the first
