@@ -348,11 +348,7 @@ bool CertifiedGrowth::push_if_outside(const LocatedPoint& point) {
 
 /// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
 std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
-  certificate_wanted_.assign(points_.rows, false);
-  for (std::uint32_t row = 0; row < work_.complex.row_count; ++row) {
-    if (work_.complex.state[row] != SimplexState::kLive) continue;
-    for (const PointId id : work_.complex.vertices(SimplexId{row})) certificate_wanted_[id.value] = true;
-  }
+  certificate_wanted_ = find_corners(work_.complex, 0, work_.complex.row_count, points_.rows);
   std::vector<PointId> rest;
   for (std::uint32_t id = 0; id < points_.rows; ++id) {
     if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});

@@ -166,12 +166,7 @@ class HullBuilder {
     for (double& determinant : determinants) determinant = -determinant;
   }
 
-  std::vector<bool> find_corners() {
-    std::vector<bool> is_corner(points_.rows, false);
-    for (std::uint32_t row = 0; row < complex().row_count; ++row)
-      for (const PointId id : complex().vertices(SimplexId{row})) is_corner[id.value] = true;
-    return is_corner;
-  }
+  std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }
 
   /// Rank 1 has no growth.
   void make_segment() {
@@ -245,8 +240,7 @@ class HullBuilder {
   void make_facets(const KnownHighest& known) {
     const Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
-    is_vertex_ =
-        hull_.is_approximate ? find_corners() : find_vertices(complex(), hull_.layout_, points_.rows);
+    is_vertex_ = hull_.is_approximate ? corners() : find_vertices(complex(), hull_.layout_, points_.rows);
     for (std::uint32_t id = 0; id < points_.rows; ++id) {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
@@ -263,7 +257,7 @@ class HullBuilder {
     const Clock::time_point start = Clock::now();
     const bool is_known = !known.highest.empty();
     const CertificatePoints certificate = gather_certificate_points(
-        points_, frame_, is_known ? find_corners() : growth_->certificate_wanted(), is_known);
+        points_, frame_, is_known ? corners() : growth_->certificate_wanted(), is_known);
     hull_.reference = certificate.reference;
     growth_->release_coordinates();
     FacetTable table = make_facet_table(

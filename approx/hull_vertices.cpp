@@ -70,10 +70,7 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
                                 std::size_t point_count) {
   // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
   // only are looked at.
-  std::vector<bool> is_vertex(point_count, false);
-  for (std::uint32_t row = 0; row < layout.simplicial; ++row) {
-    for (const PointId id : complex.vertices(SimplexId{row})) is_vertex[id.value] = true;
-  }
+  std::vector<bool> is_vertex = find_corners(complex, 0, layout.simplicial, point_count);
   std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
   for (auto row = static_cast<std::uint32_t>(layout.simplicial); row < complex.row_count; ++row) {

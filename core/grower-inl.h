@@ -145,7 +145,7 @@ class Grower {
  private:
   // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
   // result.
-  static constexpr std::size_t kManyVisible = 96, kManyRidges = 192, kRidgesInBlock = 64;
+  static constexpr std::size_t kManyVisible = 192, kManyRidges = 384, kRidgesInBlock = 96;
   // More would spend their time on marking what the others found.
   static constexpr std::size_t kMostThreads = 8;
 

@@ -1,6 +1,7 @@
 #include "core/simplicial_complex.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -41,6 +42,22 @@ void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t
 }
 
 }  // namespace
+
+std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t begin, std::size_t end,
+                               std::size_t point_count) {
+  std::vector<std::uint8_t> is_corner(point_count, 0);
+  for_each_block(end - begin, kRowsAtATime, [&](std::size_t first, std::size_t last) {
+    for (std::size_t row = begin + first; row < begin + last; ++row) {
+      if (complex.state[row] != SimplexState::kLive) continue;
+      for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
+        const std::atomic_ref flag(is_corner[id.value]);  // of several threads
+        // Most are set already: written once, their lines stay with all cores.
+        if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  return {is_corner.begin(), is_corner.end()};
+}
 
 std::vector<RowMove> compact(SimplicialComplex& complex) {
   const std::size_t rank = complex.rank;
