@@ -42,11 +42,12 @@ auto call_in_group(const ProcessGroup* group, const Call& call) -> decltype(call
 
 }  // namespace
 
-HullInput::HullInput(const std::string& points_path, const std::string& shards_pattern,
-                     const ProcessGroup* group, const std::function<void()>& check)
+HullInput::HullInput(const std::string& points_path, std::size_t kept_bytes,
+                     const std::string& shards_pattern, const ProcessGroup* group,
+                     const std::function<void()>& check)
     : group_(group) {
   if (shards_pattern.empty()) {
-    file_ = read_points(points_path);
+    file_ = read_points(points_path, kept_bytes);
     check();
     return;
   }

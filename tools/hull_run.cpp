@@ -21,6 +21,7 @@
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/plane_writer.h"
+#include "tools/point_reader.h"
 #include "tools/process_group.h"
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
@@ -112,6 +113,12 @@ Limits limits_left(Limits limits, double seconds, std::uint64_t bytes) {
   return limits;
 }
 
+/// How large a mapped file may be to stay in memory: a small part of what is allowed.
+std::size_t kept_file_bytes(const Limits& limits) {
+  return limits.max_memory_bytes == 0 ? kKeptFileBytes
+                                      : std::min<std::size_t>(kKeptFileBytes, limits.max_memory_bytes / 16);
+}
+
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
 OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context) {
   const bool is_complete = hull.status == HullStatus::kComplete || hull.status == HullStatus::kFacetLimit;
@@ -151,7 +158,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
                                                      : static_cast<int>(request.options.threads));
 
   progress.show_phase("read");
-  HullInput input(request.points_path, request.shards_pattern, group,
+  HullInput input(request.points_path, kept_file_bytes(request.options.limits), request.shards_pattern, group,
                   [&] { check_outputs_are_writable(outputs); });
   ReportContext context{.input_path = request.shards_pattern + request.points_path,
                         .options = request.options,

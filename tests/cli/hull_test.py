@@ -135,6 +135,14 @@ def test_limits_end_growth_and_the_status_says_which():
         check_no_point_is_above(numpy.load(path), planes)
 
 
+def test_a_mapped_file_does_not_count_where_memory_is_short():
+    path = fresh_folder("mapped") / "points.npy"
+    run("generate", "gaussian", "-d", 6, "-n", 1000000, "--seed", 4, "-o", path)  # 48 MB
+    short = report_of(path, "--max-memory", "56M")
+    assert short["status"] == "complete" and short["peak_memory_bytes"] < 1.1 * 56 * 2**20, short["peak_memory_bytes"]
+    assert short["facets"] == report_of(path)["facets"]
+
+
 def check_no_point_is_above(points, planes):
     for block in numpy.array_split(numpy.load(planes), 50):
         assert (points @ block[:, :-1].T + block[:, -1]).max() <= 0
