@@ -71,6 +71,7 @@ class Approximation {
   FacetClusters run_count();
   FacetClusters run_merging();
   void grow_outside_width();
+  bool search_outside(double width);
 
   const Frame& frame_;
   const Accuracy& accuracy_;

@@ -10,19 +10,11 @@ namespace {
 
 /// Repair rounds after which the rest is reported, not chased. One or two are what degenerate inputs need.
 constexpr std::uint64_t kRepairRounds = 8;
-/// Points further inside than this need no look at their distance from each plane. [ratio]
-constexpr double kWellInside = 1e-9;
 /// Points that take part in growth from the beginning.
 constexpr std::size_t kPointsAtFirst = 4096;
 /// A hull of more simplices than this has vertices that some of the points do not stand for. So has one that
 /// one of so many points is inside.
 constexpr std::size_t kManyRowsFromSome = 1 << 14, kHardlyAny = 64;
-/// The rounding of the frame's coordinates, and of a gauge computed of them, is far below this. [ratio]
-constexpr double kFrameRounding = 1e-14;
-/// Plane-times-point products that are worth certifying points near the hull one by one: some twenty seconds
-/// of one core on 8-d gaussian points, where the tree of points spares most of them, for widths of half the
-/// size.
-constexpr double kAffordableProducts = 2e12;
 
 HullStatus status_of(GrowthStop stop) {
   switch (stop) {
@@ -201,21 +193,10 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
   report_counters();
 }
 
-std::vector<PointId> CertifiedGrowth::unproven_points() const {
-  std::vector<PointId> points;
-  for (std::uint32_t id = 0; id < points_.rows; ++id)
-    if (proven_.empty() || !proven_[id]) points.push_back(PointId{id});
-  return points;
-}
-
-void CertifiedGrowth::certify_unproven(double gauge, KnownHighest known) {
-  certificate_wanted_.assign(points_.rows, proven_.empty());
-  for (std::uint32_t id = 0; id < proven_.size(); ++id) certificate_wanted_[id] = !proven_[id];
-  known_highest_ = std::move(known);
-  left_out_.clear();
-  covered_gauge_ = 0.0;
-  hull_.max_outside_gauge = gauge + kFrameRounding;
-  report_counters();
+bool CertifiedGrowth::may_search(std::size_t points) {
+  if (limits_.has_memory_to_search(work_, frame_.dimension, point_bytes(), points)) return true;
+  hull_.status = HullStatus::kMemoryLimit;
+  return false;
 }
 
 bool CertifiedGrowth::may_cover() {
@@ -346,16 +327,6 @@ bool CertifiedGrowth::push_if_outside(const LocatedPoint& point) {
   return true;
 }
 
-/// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
-std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
-  certificate_wanted_ = find_corners(work_.complex, 0, work_.complex.row_count, points_.rows);
-  std::vector<PointId> rest;
-  for (std::uint32_t id = 0; id < points_.rows; ++id) {
-    if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});
-  }
-  return rest;
-}
-
 /// Points more than four shifts and W outside go back; true when there were any.
 bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
   bool any = false;
@@ -363,32 +334,6 @@ bool CertifiedGrowth::repair(const std::vector<LocatedPoint>& located) {
     if (point.gauge > 4.0 * work_.options.shift) any = push_if_outside(point) || any;
   }
   return any;
-}
-
-/// Points so near the hull (or outside, after a limit) that only their distances will do.
-void CertifiedGrowth::list_left_out(const std::vector<LocatedPoint>& located) {
-  double largest_gauge = 0.0;
-  left_out_.clear();
-  for (const LocatedPoint& point : located) {
-    largest_gauge = std::max(largest_gauge, point.gauge);
-    if (point.gauge > -kWellInside) left_out_.push_back(point);
-  }
-  hull_.max_outside_gauge = largest_gauge;
-  covered_gauge_ = 0.0;
-}
-
-/// When the distances would cost too much the points outside are covered by their gauge.
-void CertifiedGrowth::choose_certificate_points(std::size_t facets) {
-  const double largest_gauge = hull_.max_outside_gauge;
-  const double products =
-      static_cast<double>(facets) * static_cast<double>(left_out_.size() * frame_.dimension);
-  const double affordable =
-      std::min(kAffordableProducts, limits_.affordable_products(work_, options_.stop.stop_requested()));
-  if (products > affordable && std::isfinite(largest_gauge)) {
-    covered_gauge_ = largest_gauge + kFrameRounding;
-    return;
-  }
-  for (const LocatedPoint& point : left_out_) certificate_wanted_[point.point.value] = true;
 }
 
 }  // namespace ndhull

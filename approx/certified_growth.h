@@ -51,9 +51,12 @@ class CertifiedGrowth {
   void locate_left_out(double useful_slack);
   /// Points that may be on or above the hull, ascending: those that were not proven inside early on.
   std::vector<PointId> unproven_points() const;
-  /// Instead of locating them: all unproven points are certified one by one. `gauge` is the largest of them
-  /// above any simplex; `known`: how far they reach along the simplices' normals, a row each.
-  void certify_unproven(double gauge, KnownHighest known);
+  /// Those of left_out(), with the vertices or without, ascending. Valid after locate_left_out.
+  std::vector<PointId> left_out_points(bool with_vertices) const;
+  /// `points` are all that may be on or above the hull, vertices with them, and have been searched for the
+  /// furthest above each simplex: what is proven of where they are is not needed. `gauge` is the largest of
+  /// them above any; `known`: how far they reach along the simplices' normals, a row each.
+  void certify_by_search(std::span<const PointId> points, double gauge, KnownHighest known);
   /// Those of left_out() that are outside by more than W and rounding go back; false when there are none.
   bool repair() { return repair(left_out_); }
   /// Puts these points, which are above these simplices, back into outside sets: growth adds them however
@@ -67,6 +70,9 @@ class CertifiedGrowth {
   /// May the simplices be gathered into facets? Not when time is up, memory is short or a stop was requested:
   /// then they are the facets, which takes neither.
   bool may_cover();
+  /// Is there memory to search so many points for the furthest above each simplex (outside_points.h)? The
+  /// status says when there is not.
+  bool may_search(std::size_t points);
   /// Should what is there be the result, if it can be one? Then the status says so.
   bool is_late();
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
@@ -88,6 +94,9 @@ class CertifiedGrowth {
   void release_coordinates() { coordinates_ = HugeArray<double>(); }
 
  private:
+  /// Points further inside than this need no look at their distance from each plane. [ratio]
+  static constexpr double kWellInside = 1e-9;
+
   void start();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);

@@ -202,10 +202,17 @@ class TableMaker {
         largest[k] = std::max(largest[k], points_.rows[i + k]);
       }
     }
-    std::vector<FurthestPoint> furthest(count_);
-    for (std::size_t facet = 0; facet < count_; ++facet) furthest[facet].dot = table_.areas[facet];
-    FurthestPoints(dimension_, rows, lowest, largest, false).find(normals(0, count_), furthest);
-    for (std::size_t facet = 0; facet < count_; ++facet) table_.outer[facet] = furthest[facet].dot;
+    constexpr std::size_t kPlanesAtATime = 1 << 16;  // what is found of each takes little memory then
+    FurthestPoints search(dimension_, rows, lowest, largest, false);
+    search.expect(count_);
+    std::vector<FurthestPoint> furthest;
+    for (std::size_t begin = 0; begin < count_; begin += kPlanesAtATime) {
+      const std::size_t end = std::min(begin + kPlanesAtATime, count_);
+      furthest.assign(end - begin, FurthestPoint{});
+      for (std::size_t facet = begin; facet < end; ++facet) furthest[facet - begin].dot = table_.areas[facet];
+      search.find(normals(begin, end), furthest);
+      for (std::size_t facet = begin; facet < end; ++facet) table_.outer[facet] = furthest[facet - begin].dot;
+    }
   }
 
   /// What is known, raised by what a normal that differs from the one it is known for can change.

@@ -27,6 +27,9 @@ constexpr double kShare = 0.2, kShareFarAbove = 0.5, kFarAbove = 1.5;
 /// From so many points on, every so-manieth is searched first.
 constexpr std::size_t kManyPoints = 1 << 15, kStep = 16;
 
+/// Few enough that what is listed for each takes little memory.
+constexpr std::size_t kPlanesAtATime = 1 << 16;
+
 }  // namespace
 
 OutsideSearch::OutsideSearch(CertifiedGrowth& growth, std::vector<PointId> points, bool certifies)
@@ -72,61 +75,68 @@ void OutsideSearch::copy_rows() {
 
 void OutsideSearch::search_among(std::size_t step) {
   step_ = step;
-  planes_.clear();
+  searched_.clear();
   furthest_.emplace(dimension_, StridedRows{rows_.data, (rows_.count + step - 1) / step, rows_.stride * step},
                     low_, high_, certifies_);
 }
 
 void OutsideSearch::search_new_planes() {
   const SimplicialComplex& complex = growth_.work().complex;
-  const std::size_t rank = complex.rank;
-  planes_.resize(complex.row_count * rank, 0.0);
-  above_.resize(complex.row_count);
-  std::vector<std::uint32_t> rows;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const double* plane = complex.plane(SimplexId{row}).data();
-    if (complex.state[row] != SimplexState::kLive) continue;
-    if (std::memcmp(plane, planes_.data() + row * rank, rank * sizeof(double)) == 0) continue;
-    std::copy_n(plane, rank, planes_.data() + row * rank);
-    rows.push_back(row);
-  }
-  std::vector<double> normals(rows.size() * rank);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::copy_n(planes_.data() + rows[i] * rank, rank, normals.data() + i * rank);
-  std::vector<FurthestPoint> furthest(rows.size(), FurthestPoint{1.0});  // a plane's vertices
+  const std::size_t rank = complex.rank, count = complex.row_count;
+  searched_.resize(count * rank, PointId::kNone);
+  above_.resize(count);
   if (certifies_) {
-    std::fill(furthest.begin(), furthest.end(), FurthestPoint{-HUGE_VAL});
-    const std::vector<double> planes = std::move(normals);
+    known_.normals.resize(count * dimension_);
+    known_.highest.resize(count);
+  }
+  std::vector<std::uint32_t> rows;
+  worst_ = 0.0;
+  for (std::uint32_t row = 0; row < count; ++row) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    const auto vertices = complex.vertices(SimplexId{row});
+    std::uint32_t* searched = searched_.data() + row * rank;
+    if (std::memcmp(vertices.data(), searched, rank * sizeof(PointId)) == 0) {
+      worst_ = std::max(worst_, above_[row].height);
+    } else {
+      std::memcpy(searched, vertices.data(), rank * sizeof(PointId));
+      rows.push_back(row);
+    }
+  }
+  furthest_->expect(rows.size());
+  for (std::size_t begin = 0; begin < rows.size(); begin += kPlanesAtATime)
+    search_rows(std::span(rows).subspan(begin, std::min(kPlanesAtATime, rows.size() - begin)));
+}
+
+void OutsideSearch::search_rows(std::span<const std::uint32_t> rows) {
+  const SimplicialComplex& complex = growth_.work().complex;
+  const std::size_t rank = complex.rank;
+  std::vector<double> planes(rows.size() * rank), normals;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::copy_n(complex.plane(SimplexId{rows[i]}).data(), rank, planes.data() + i * rank);
+  std::vector<FurthestPoint> furthest(rows.size(), FurthestPoint{certifies_ ? -HUGE_VAL : 1.0});
+  if (certifies_) {
     normals.resize(rows.size() * dimension_);
     NormalMap(growth_.frame()).map(planes.data(), rows.size(), normals.data());
   }
-  furthest_->find(normals, furthest);
-  for (std::size_t i = 0; i < rows.size(); ++i) above_[rows[i]] = above_row(rows[i], furthest[i]);
-  if (certifies_) note_known(rows, normals, furthest);
-  worst_ = 0.0;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row)
-    if (complex.state[row] == SimplexState::kLive) worst_ = std::max(worst_, above_[row].height);
+  furthest_->find(certifies_ ? normals : planes, furthest);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    above_[rows[i]] = above_row(rows[i], furthest[i]);
+    worst_ = std::max(worst_, above_[rows[i]].height);
+    if (!certifies_) continue;
+    std::copy_n(normals.data() + i * dimension_, dimension_, known_.normals.data() + rows[i] * dimension_);
+    known_.highest[rows[i]] = furthest[i].dot;
+  }
 }
 
 OutsideSearch::Above OutsideSearch::above_row(std::uint32_t row, const FurthestPoint& found) const {
   if (found.row == FurthestPoint::kNoRow) return {};
-  const std::size_t rank = growth_.work().rank;
+  const GrowthWork& work = growth_.work();
   const PointId id = points_[found.row * step_];
+  const auto plane = work.complex.plane(SimplexId{row});
   double gauge = -1.0;
-  for (std::size_t k = 0; k < rank; ++k)
-    gauge += planes_[row * rank + k] * growth_.coordinates()[std::size_t{id.value} * rank + k];
-  return {height_above(growth_.work(), row, gauge), {id, SimplexId{row}, gauge}};
-}
-
-void OutsideSearch::note_known(std::span<const std::uint32_t> rows, std::span<const double> normals,
-                               std::span<const FurthestPoint> furthest) {
-  const std::size_t count = growth_.work().complex.row_count;
-  known_.normals.resize(count * dimension_);
-  known_.highest.resize(count);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::copy_n(normals.data() + i * dimension_, dimension_, known_.normals.data() + rows[i] * dimension_);
-    known_.highest[rows[i]] = furthest[i].dot;
-  }
+  for (std::size_t k = 0; k < work.rank; ++k)
+    gauge += plane[k] * growth_.coordinates()[std::size_t{id.value} * work.rank + k];
+  return {height_above(work, row, gauge), {id, SimplexId{row}, gauge}};
 }
 
 /// Is any point further above than is allowed by now?

@@ -18,7 +18,8 @@ namespace ndhull {
 /// Of many points some are searched first, spread evenly. Only a hull that these are below is worth a search
 /// over all.
 ///
-/// Memory  some bytes a coordinate of these points, and a copy of them unless they are the rows of the input.
+/// Memory  some bytes a coordinate of these points, and a copy of them unless they are the rows of the input;
+///         for each simplex 4 bytes a vertex and 32, to certify also its normal.
 class OutsideSearch {
  public:
   /// `growth` must outlive this, and has ended because no point was outside. `points`: those that may be
@@ -34,6 +35,7 @@ class OutsideSearch {
   /// Cost  a search (core/furthest_points.h) for each plane that was not there before.
   bool put_back_above(double width, double wanted);
 
+  std::span<const PointId> points() const { return points_; }
   /// No point's gauge is larger above any simplex. [ratio]
   double largest_gauge();
   /// How far all the points reach above each row of the complex; after largest_gauge(), of what certifies.
@@ -49,9 +51,8 @@ class OutsideSearch {
   /// The rows that are searched: every `step`-th of the points.
   void search_among(std::size_t step);
   void search_new_planes();
+  void search_rows(std::span<const std::uint32_t> rows);
   Above above_row(std::uint32_t row, const FurthestPoint& found) const;
-  void note_known(std::span<const std::uint32_t> rows, std::span<const double> normals,
-                  std::span<const FurthestPoint> furthest);
   bool finds_above(double width, double wanted);
 
   CertifiedGrowth& growth_;
@@ -63,7 +64,7 @@ class OutsideSearch {
   std::vector<double> low_, high_;  // their columns' ranges
   std::size_t step_ = 1;
   std::optional<FurthestPoints> furthest_;  // none: there are no points
-  std::vector<double> planes_;              // as they were searched, row by row of the complex
+  std::vector<std::uint32_t> searched_;     // vertices of the simplices that were, row by row of the complex
   std::vector<Above> above_;
   KnownHighest known_;
   double worst_ = 0.0;      // height of the furthest of all [distance]

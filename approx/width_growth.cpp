@@ -29,38 +29,43 @@ void Approximation::grow_outside_width() {
   const double width = lengths_.outside_width;
   hull_.chosen.outside_width = width;
   if (width > 0.0) growth_.grow_from_some();  // a search over all follows
-  bool has_finished = growth_.grow_to(width, 0, 0.0);
-  if (has_finished && width > 0.0) {
-    // Where most points are inside, proving that leaves few to search. Merging has to know where they are. To
-    // locate a point takes about as long as to search them all for one plane, which is done twice for each.
-    std::vector<PointId> points = growth_.unproven_points();
-    const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
-    const bool is_located = accuracy_.merges_neighbours() || 2 * points.size() < growth_.work().point_count ||
-                            points.size() < planes;
-    if (is_located) {
-      locate_left_out(width);
-      points.clear();
-      for (const LocatedPoint& point : growth_.left_out()) points.push_back(point.point);
-    }
-    OutsideSearch search(growth_, std::move(points), !is_located);
-    const double wanted = accuracy_.merges_neighbours() ? width : kAloneShare * width;
-    bool has_grown = false;
-    for (int round = 0; round < kSearchRounds && has_finished && search.put_back_above(width, wanted);
-         ++round) {
-      has_finished = growth_.grow_to(wanted, 0, 0.0);
-      has_grown = true;
-    }
-    if (has_finished && !is_located) {
-      const double gauge = search.largest_gauge();
-      growth_.certify_unproven(gauge, search.take_highest());
-    }
-    if (has_finished && !(is_located && has_grown)) return;
-  }
+  if (growth_.grow_to(width, 0, 0.0) && width > 0.0 && search_outside(width)) return;
   locate_left_out(width);
-  for (int round = 0; round < kRounds && has_finished && growth_.repair(); ++round) {
-    has_finished = growth_.grow_to(width, 0, 0.0);
+  for (int round = 0; round < kRounds && !growth_.is_limited() && growth_.repair(); ++round) {
+    growth_.grow_to(width, 0, 0.0);
     locate_left_out(width);
   }
+}
+
+/// Takes in what is further above any simplex. True when all is known of the points left out, and nothing is
+/// to be located.
+bool Approximation::search_outside(double width) {
+  // Where most points are inside, proving that leaves few to search. Merging has to know where they are; else
+  // the search of many is the certificate as well: of few points and the vertices the facet table has that
+  // sooner. To locate a point takes about as long as to search them all for one plane.
+  constexpr std::size_t kWorthCertifying = 1 << 13;
+  const bool merges = accuracy_.merges_neighbours();
+  bool certifies = !merges;
+  std::vector<PointId> points = growth_.unproven_points();
+  const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
+  if (merges || 2 * points.size() < growth_.work().point_count || points.size() < planes) {
+    locate_left_out(width);
+    certifies = !merges && growth_.left_out().size() >= kWorthCertifying;
+    points = growth_.left_out_points(certifies);
+  }
+  const std::size_t count = points.size();
+  if (!growth_.may_search(count)) return false;
+  OutsideSearch search(growth_, std::move(points), certifies);
+  const double wanted = merges ? width : kAloneShare * width;
+  bool has_grown = false;
+  for (int round = 0; round < kSearchRounds && search.put_back_above(width, wanted); ++round) {
+    has_grown = true;
+    if (!growth_.grow_to(wanted, 0, 0.0) || !growth_.may_search(count)) return false;
+  }
+  if (!certifies) return !has_grown;
+  const double gauge = search.largest_gauge();
+  growth_.certify_by_search(search.points(), gauge, search.take_highest());
+  return true;
 }
 
 /// Growth for slabs of this width.

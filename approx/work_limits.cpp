@@ -32,6 +32,8 @@ constexpr std::uint64_t kMergeBytes = 64;
 /// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points;
 /// the more the fewer merge.
 constexpr std::uint64_t kCoverBytes = 140;
+/// [bytes] of a simplex that points were searched above: what was found; of a coordinate of these points.
+constexpr std::uint64_t kSearchBytes = 32, kSearchedCoordinate = 24;
 /// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
 constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
 
@@ -65,6 +67,15 @@ bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimensi
                                      std::uint64_t point_bytes) const {
   if (limits_.max_memory_bytes == 0) return true;
   return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
+}
+
+bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimension,
+                                      std::uint64_t point_bytes, std::uint64_t points) const {
+  if (limits_.max_memory_bytes == 0) return true;
+  const std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false) +
+                                    4 * work.rank + 8 * dimension + kSearchBytes;
+  const std::uint64_t bytes_of_points = point_bytes + points * dimension * kSearchedCoordinate;
+  return work.complex.row_count <= rows_for(bytes_a_row, bytes_of_points);
 }
 
 double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }

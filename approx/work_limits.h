@@ -35,6 +35,9 @@ class WorkLimits {
   /// Is there time, and is there memory, to gather the simplices into slabs?
   bool has_time_to_cover(const GrowthWork& work) const;
   bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
+  /// Is there memory to search `points` for the furthest above each simplex (outside_points.h)?
+  bool has_memory_to_search(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
+                            std::uint64_t points) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
   /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a

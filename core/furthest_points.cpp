@@ -50,9 +50,13 @@ void FurthestPoints::make_tree() {
   tree_.emplace(dimension_, rows);
 }
 
+void FurthestPoints::expect(std::size_t directions) {
+  if (!tree_ && directions_ + directions / 2 >= worth_a_tree_) make_tree();
+}
+
 void FurthestPoints::find(std::span<const double> normals, std::span<FurthestPoint> furthest) {
   constexpr std::size_t kAtATime = 1 << 10;
-  if (!tree_ && directions_ + furthest.size() / 2 >= worth_a_tree_) make_tree();
+  expect(furthest.size());
   for (std::size_t begin = 0; begin < furthest.size() && !tree_; begin += kAtATime) {
     const std::size_t count = std::min(kAtATime, furthest.size() - begin);
     tried_ += find_furthest(*bytes_, normals.subspan(begin * dimension_, count * dimension_),

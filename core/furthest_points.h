@@ -22,6 +22,8 @@ class FurthestPoints {
   FurthestPoints(std::size_t dimension, StridedRows points, std::span<const double> low,
                  std::span<const double> high, bool are_scattered);
 
+  /// So many directions come next, in several calls: a tree may pay at once.
+  void expect(std::size_t directions);
   /// As find_furthest for BytePoints and PointTree. Which of several points with the same product is found
   /// depends on nothing but the points and the calls before.
   void find(std::span<const double> normals, std::span<FurthestPoint> furthest);

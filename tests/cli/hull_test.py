@@ -143,6 +143,14 @@ def test_a_mapped_file_does_not_count_where_memory_is_short():
     assert short["facets"] == report_of(path)["facets"]
 
 
+def test_a_search_for_points_left_out_keeps_the_memory_limit():
+    path = fresh_folder("left_out") / "points.npy"
+    run("generate", "sphere", "-d", 6, "-n", 30000, "--seed", 1, "-o", path)
+    report = report_of(path, "--outside-width", 0.05, "--max-memory", "200M")  # growth alone takes 150 MB
+    assert report["peak_memory_bytes"] < 1.1 * 200 * 2**20, report["peak_memory_bytes"]
+    assert report["points_outside"] == 0 and report["max_facet_width"] < 0.06, report["max_facet_width"]
+
+
 def check_no_point_is_above(points, planes):
     for block in numpy.array_split(numpy.load(planes), 50):
         assert (points @ block[:, :-1].T + block[:, -1]).max() <= 0
