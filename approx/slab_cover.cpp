@@ -89,17 +89,18 @@ void SlabCover::add_slabs(std::span<const SeedChoice> seeds, double width, const
 // those are dropped, last chosen first, that others have made superfluous.
 std::vector<std::uint32_t> SlabCover::choose_slabs() {
   std::vector<std::uint8_t> times(complex_.row_count, 0);  // chosen slabs that hold it, at most 255
-  std::vector<float> worth(complex_.row_count, 0.0f);      // of holding it: 0 once a chosen slab does
+  // Of holding it: 0 once a chosen slab does. Whole numbers: their sums are exact, and quick.
+  std::vector<std::uint16_t> worth(complex_.row_count, 0);
   const std::span<const std::uint8_t> hits = seeds_.hits();
   for (std::size_t row = 0; row < worth.size(); ++row)
-    if (hits[row] > 0) worth[row] = 1.0f / static_cast<float>(hits[row]);
+    if (hits[row] > 0) worth[row] = static_cast<std::uint16_t>(0xFFFFu / hits[row]);
   const auto gain_of = [&](std::uint32_t slab) {
-    float gain = 0.0f;
+    std::uint64_t gain = 0;
     for (std::size_t i = slabs_[slab].begin; i < slabs_[slab].end; ++i) gain += worth[members_[i]];
     return gain;
   };
   struct Offer {
-    float gain;
+    std::uint64_t gain;
     std::uint32_t slab;
     bool operator<(const Offer& other) const {
       return gain != other.gain ? gain < other.gain : slab > other.slab;
@@ -116,20 +117,23 @@ std::vector<std::uint32_t> SlabCover::choose_slabs() {
       times[seed] = 1;
     }
   }
-  std::priority_queue<Offer> offers(std::less<Offer>(), std::move(first_offers));
-  while (!offers.empty()) {
-    const Offer best = offers.top();
-    offers.pop();
-    const float gain = gain_of(best.slab);  // gains only fall: an old one is an upper bound
-    if (gain <= 0.0f) continue;
-    if (!offers.empty() && Offer{gain, best.slab} < offers.top()) {
-      offers.push({gain, best.slab});
+  std::sort(first_offers.begin(), first_offers.end(), [](const Offer& a, const Offer& b) { return b < a; });
+  std::priority_queue<Offer> offers;  // those that have become less
+  for (std::size_t next = 0; next < first_offers.size() || !offers.empty();) {
+    const bool is_first = offers.empty() || (next < first_offers.size() && offers.top() < first_offers[next]);
+    const Offer best = is_first ? first_offers[next] : offers.top();
+    is_first ? static_cast<void>(++next) : offers.pop();
+    const std::uint64_t gain = gain_of(best.slab);  // gains only fall: an old one is an upper bound
+    if (gain == 0) continue;
+    const Offer now{gain, best.slab};
+    if ((!offers.empty() && now < offers.top()) || (next < first_offers.size() && now < first_offers[next])) {
+      offers.push(now);
       continue;
     }
     chosen.push_back(best.slab);
     for (std::size_t i = slabs_[best.slab].begin; i < slabs_[best.slab].end; ++i) {
       count_up(times[members_[i]]);
-      worth[members_[i]] = 0.0f;
+      worth[members_[i]] = 0;
     }
   }
   std::vector<std::uint32_t> kept;

@@ -24,6 +24,17 @@ SlabScratch::SlabScratch(const SimplicialComplex& complex, const WidthSpace& spa
   }
 }
 
+void SlabScratch::make_room(std::size_t count) {
+  if (count <= grown.size()) return;
+  grown.resize(std::max(count, 2 * grown.size()));
+  depths.resize(grown.size());
+}
+
+void SlabScratch::copy_grown(GrownSlab& slab) const {
+  slab.members.assign(grown.data(), grown.data() + grown_count);
+  slab.depths.assign(depths.data(), depths.data() + grown_count);
+}
+
 SlabGrower::SlabGrower(const SimplicialComplex& complex, const WidthSpace& space, const SimplexRule* rule,
                        bool is_convex)
     : complex_(complex), space_(space), rule_(rule), is_convex_(is_convex) {}
@@ -45,86 +56,100 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
   return false;
 }
 
-/// Gathers in scratch.grown and scratch.depths the simplices around the seed whose vertices are all less than
-/// `width` below the plane: all of them, or the first `enough`. None when the seed is not among them.
-/// Products that have scratch.vertex_pass already are taken as they are.
+/// Gathers in scratch.grown and scratch.depths the scratch.grown_count simplices around the seed whose
+/// vertices are all less than `width` below the plane: all of them, or the first `enough`. None when the seed
+/// is not among them. Products that have scratch.vertex_pass already are taken as they are.
 void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
                        SlabScratch& scratch) const {
   call_with_dimension<2, kMaxRank>(complex_.rank,
                                    [&](auto d) { flood_in<d>(seed, plane, width, enough, scratch); });
 }
 
+// Branches on what a neighbour is are not to be foreseen, so there is one for each simplex: those that were
+// not met yet are listed first, then each is written behind what was taken, and stays there or not.
 template <std::size_t D>
 void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
                           SlabScratch& scratch) const {
+  constexpr std::size_t kAhead = 2, kFarAhead = 6;  // simplices whose neighbours', whose rows are asked for
   const double least = plane.height - kDepthRoom * width;
   const std::uint32_t pass = scratch.vertex_pass, flood = ++scratch.flood;
+  MetSimplex* const met = scratch.met.data();
+  std::uint32_t* const stamps = scratch.vertex_stamp.data();
+  double* const dots = scratch.dots.data();
   const auto height_of = [&](std::uint32_t row) {
-    if (scratch.vertex_stamp[row] != pass) {
-      scratch.vertex_stamp[row] = pass;
-      scratch.dots[row] = dot_of(plane.normal.data(), row);
+    if (stamps[row] != pass) {
+      stamps[row] = pass;
+      dots[row] = dot_of(plane.normal.data(), row);
     }
-    return scratch.dots[row];
+    return dots[row];
   };
+  const auto depth_of = [&](double low) { return rounded_up_depth(std::max(0.0, plane.height - low)); };
   const auto row_of = [this](std::uint32_t vertex) { return space_.row_of(PointId{vertex}); };
-  const auto vertices_of_row = [this](std::uint32_t row) {
-    return complex_.topology.data() + std::size_t{row} * 2 * D;
-  };
+  const std::uint32_t* const topology = complex_.topology.data();
   const auto is_wanted = [&](std::uint32_t simplex) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) sum += height_of(row_of(vertices_of_row(simplex)[k]));
+    for (std::size_t k = 0; k < D; ++k) sum += height_of(row_of(topology[std::size_t{simplex} * 2 * D + k]));
     return rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit);
   };
-  constexpr std::size_t kAhead = 2;  // simplices whose neighbours' marks are asked for before their turn
-  const auto take = [&](std::uint32_t simplex, double low) {
-    scratch.grown.push_back(simplex);
-    scratch.depths.push_back(rounded_up_depth(std::max(0.0, plane.height - low)));
-    __builtin_prefetch(vertices_of_row(simplex));
-    __builtin_prefetch(vertices_of_row(simplex) + 2 * D - 1);
+  const auto ask_for_row = [&](std::uint32_t simplex) {
+    __builtin_prefetch(topology + std::size_t{simplex} * 2 * D);
+    __builtin_prefetch(topology + std::size_t{simplex} * 2 * D + 2 * D - 1);
   };
-  scratch.grown.clear();
-  scratch.depths.clear();
+  scratch.grown_count = 0;
   if (rule_ != nullptr) rule_->set_plane(SimplexId{seed}, plane, scratch.compared);
-  scratch.met[seed].flood = flood;
+  met[seed].flood = flood;
   double low_of_seed = HUGE_VAL;
   for (std::size_t k = 0; k < D; ++k)
-    low_of_seed = std::min(low_of_seed, height_of(row_of(vertices_of_row(seed)[k])));
+    low_of_seed = std::min(low_of_seed, height_of(row_of(topology[std::size_t{seed} * 2 * D + k])));
   if (low_of_seed < least) return;
-  take(seed, low_of_seed);
-  for (std::size_t i = 0; i < scratch.grown.size() && scratch.grown.size() < enough; ++i) {
-    const std::uint32_t* vertices = vertices_of_row(scratch.grown[i]);
-    if (i + kAhead < scratch.grown.size()) {
-      const std::uint32_t* later = vertices_of_row(scratch.grown[i + kAhead]);
-      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(&scratch.met[later[D + k]], 1);
+  scratch.make_room(D + 1);
+  scratch.grown[0] = seed;
+  scratch.depths[0] = depth_of(low_of_seed);
+  std::size_t count = 1;
+  for (std::size_t i = 0; i < count && count < enough; ++i) {
+    scratch.make_room(count + D);
+    std::uint32_t* const grown = scratch.grown.data();
+    float* const depths = scratch.depths.data();
+    const std::uint32_t* const vertices = topology + std::size_t{grown[i]} * 2 * D;
+    if (i + kAhead < count) {
+      const std::uint32_t* later = topology + std::size_t{grown[i + kAhead]} * 2 * D;
+      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(met + later[D + k], 1);
     }
+    if (i + kFarAhead < count) ask_for_row(grown[i + kFarAhead]);
+    const std::size_t known = count;
     std::uint32_t rows[D], mix = 0;
-    double low = HUGE_VAL, second = HUGE_VAL;
-    std::size_t lowest = 0;
+    double heights[D], low = HUGE_VAL, second = HUGE_VAL;
     for (std::size_t k = 0; k < D; ++k) {
       rows[k] = row_of(vertices[k]);
       mix ^= rows[k];
-      const double height = height_of(rows[k]);
-      if (height < low) {
-        second = low;
-        low = height;
-        lowest = k;
-      } else {
-        second = std::min(second, height);
-      }
+      heights[k] = height_of(rows[k]);
+      second = std::min(second, std::max(low, heights[k]));
+      low = std::min(low, heights[k]);
     }
-    // All of them at once: they lie all over memory.
-    MetSimplex met[D];
-    for (std::size_t k = 0; k < D; ++k) met[k] = scratch.met[vertices[D + k]];
+    std::uint32_t fresh[D], opposite[D];
+    std::size_t fresh_count = 0;
     for (std::size_t k = 0; k < D; ++k) {
-      if (met[k].flood == flood) continue;
-      const std::uint32_t next = vertices[D + k];
-      scratch.met[next].flood = flood;
+      const MetSimplex neighbour = met[vertices[D + k]];
+      fresh[fresh_count] = static_cast<std::uint32_t>(k);
       // All its vertices are this one's too, but for the one across the ridge.
-      const double height = height_of(mix ^ rows[k] ^ met[k].mix);
-      if (height < least || (rule_ != nullptr && !is_wanted(next))) continue;
-      take(next, std::min(height, k == lowest ? second : low));
+      opposite[fresh_count] = mix ^ rows[k] ^ neighbour.mix;
+      fresh_count += neighbour.flood != flood ? 1u : 0u;
     }
+    for (std::size_t f = 0; f < fresh_count; ++f) {
+      const std::size_t k = fresh[f];
+      const std::uint32_t next = vertices[D + k];
+      met[next].flood = flood;
+      const double height = height_of(opposite[f]);
+      bool is_taken = height >= least;
+      if (rule_ != nullptr && is_taken) is_taken = is_wanted(next);
+      grown[count] = next;
+      depths[count] = depth_of(std::min(height, heights[k] == low ? second : low));
+      count += is_taken ? 1u : 0u;
+    }
+    if (known <= i + kFarAhead)
+      for (std::size_t taken = known; taken < count; ++taken) ask_for_row(grown[taken]);
   }
+  scratch.grown_count = count;
 }
 
 std::span<const std::uint32_t> SlabGrower::vertices_of(std::span<const std::uint32_t> members,
@@ -180,16 +205,21 @@ void SlabGrower::fit_plane_to_seed(GrownSlab& slab, double width, const CoverEff
   slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
 }
 
-/// scratch.vertices: those less than `width` below the plane; products of all for the flood to come.
+/// scratch.vertices: those less than `width` below the plane, with products for the flood to come. The last
+/// measured plane must be this one.
 void SlabGrower::find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
+  double height = 0.0;
+  if (space_.is_large()) space_.table().find(plane.normal.data(), scratch.fit.products, height);
   ++scratch.vertex_pass;
   scratch.vertices.clear();
-  for (std::uint32_t row = 0; row < space_.vertex_count(); ++row) {
+  space_.table().rows_above(scratch.fit.products, least, scratch.vertices);
+  std::erase_if(scratch.vertices, [&](std::uint32_t row) {
+    if (row >= space_.vertex_count()) return true;
     scratch.dots[row] = dot_of(plane.normal.data(), row);
     scratch.vertex_stamp[row] = scratch.vertex_pass;
-    if (scratch.dots[row] >= least) scratch.vertices.push_back(row);
-  }
+    return scratch.dots[row] < least;
+  });
 }
 
 /// Turns the plane, which the last measured one must be, to all vertices less than `width` below it. That
@@ -201,7 +231,9 @@ void SlabGrower::turn_to_vertices_below(FittedPlane& plane, double width, const 
     const std::size_t count = scratch.vertices.size();
     plane.low = plane.height;
     for (const std::uint32_t row : scratch.vertices) plane.low = std::min(plane.low, scratch.dots[row]);
-    plane = narrow_plane(space_, plane, scratch.vertices, effort.fit_steps, scratch.fit);
+    FittedPlane turned = narrow_plane(space_, plane, scratch.vertices, effort.fit_steps, scratch.fit);
+    if (turned.normal == plane.normal) return;  // no way of turning it makes it narrower
+    plane = std::move(turned);
     find_vertices_below(plane, width, scratch);
     if (scratch.vertices.size() <= count) return;
   }
@@ -217,10 +249,9 @@ void SlabGrower::turn_to_members(GrownSlab& slab, double width, const CoverEffor
     turned = narrow_plane(space_, turned, vertices, effort.fit_steps, scratch.fit);
     ++scratch.vertex_pass;
     flood(slab.seed, turned, width, SIZE_MAX, scratch);
-    if (scratch.grown.size() <= slab.members.size()) break;
+    if (scratch.grown_count <= slab.members.size()) break;
     slab.plane = std::move(turned);
-    slab.members.swap(scratch.grown);
-    slab.depths.swap(scratch.depths);
+    scratch.copy_grown(slab);
   }
 }
 
@@ -239,9 +270,8 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   const bool turns_before = rule_ == nullptr && meets_all_points();
   ++scratch.vertex_pass;
   flood(slab.seed, slab.plane, width, turns_before ? kWorthTurning : SIZE_MAX, scratch);
-  if (scratch.grown.size() > 1) {
-    slab.members.swap(scratch.grown);
-    slab.depths.swap(scratch.depths);
+  if (scratch.grown_count > 1) {
+    scratch.copy_grown(slab);
   } else if (is_convex_) {
     slab.plane.height = 0.0;
   }
@@ -252,10 +282,9 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
   FittedPlane turned = slab.plane;
   turn_to_vertices_below(turned, width, effort, scratch);
   flood(slab.seed, turned, width, SIZE_MAX, scratch);
-  if (scratch.grown.size() < slab.members.size()) return;  // a vertex of the seed lost by rounding
+  if (scratch.grown_count < slab.members.size()) return;  // a vertex of the seed lost by rounding
   slab.plane = std::move(turned);
-  slab.members.swap(scratch.grown);
-  slab.depths.swap(scratch.depths);
+  scratch.copy_grown(slab);
 }
 
 }  // namespace ndhull

@@ -43,14 +43,20 @@ struct MetSimplex {
 /// What one thread needs to grow slabs, and to fit their planes.
 struct SlabScratch {
   SlabScratch(const SimplicialComplex& complex, const WidthSpace& space);
+  /// At least so many places in `grown`.
+  void make_room(std::size_t count);
+  void copy_grown(GrownSlab& slab) const;
+
   PlaneFitWork fit;
   PlaneFitWork rule_fit;                    // of the rule, while a slab grows by what `fit` has measured
   std::vector<MetSimplex> met;              // per row of the complex
   std::vector<std::uint32_t> vertex_stamp;  // per row of the space: last pass over vertices
   std::uint32_t flood = 0, vertex_pass = 0;
   std::vector<double> dots;  // per row of the space with this pass: product with the flood's normal
-  std::vector<std::uint32_t> vertices, grown;
-  std::vector<float> depths;
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> grown;  // of the last flood the first `grown_count`, the seed first
+  std::vector<float> depths;         // of these
+  std::size_t grown_count = 0;
   RulePlane compared;
 };
 
