@@ -1,6 +1,7 @@
 #include "approx/slab_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include <queue>
 
 #include "core/blocks.h"
+#include "core/dimension_switch.h"
 #include "core/ids.h"
 
 namespace ndhull {
@@ -235,12 +237,26 @@ class FacetParts {
  public:
   FacetParts(const SimplicialComplex& complex, const std::vector<std::uint32_t>& facet_of)
       : first_(complex.row_count) {
-    // Rows as they stand in memory; each ridge from the later of its two.
+    // Rows as they stand in memory; each ridge from the later of its two. Which neighbours are of the same
+    // facet is not to be foreseen: they are listed without a branch for each.
+    std::array<std::uint32_t, kMaxRank> same;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       first_[row] = row;
-      if (facet_of[row] == kNone) continue;
-      for (const SimplexId neighbour : complex.neighbours(SimplexId{row}))
-        if (neighbour.value < row && facet_of[neighbour.value] == facet_of[row]) join(neighbour.value, row);
+      const std::uint32_t facet = facet_of[row];
+      if (facet == kNone) continue;
+      std::size_t count = 0;
+      for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
+        same[count] = neighbour.value;
+        count += static_cast<std::size_t>(neighbour.value < row) &
+                 static_cast<std::size_t>(facet_of[neighbour.value] == facet);
+      }
+      std::uint32_t root = row;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t other = find(same[i]);
+        if (other == root) continue;
+        first_[std::max(other, root)] = std::min(other, root);
+        root = std::min(other, root);
+      }
     }
   }
   /// Valid for ascending rows, once each.
@@ -250,11 +266,6 @@ class FacetParts {
   std::uint32_t find(std::uint32_t row) {
     while (first_[row] != row) row = first_[row] = first_[first_[row]];
     return row;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) first_[std::max(a, b)] = std::min(a, b);
   }
   std::vector<std::uint32_t> first_;
 };
