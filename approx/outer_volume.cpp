@@ -35,6 +35,27 @@ double fewest_vertices(std::size_t rank, std::size_t facets) {
   return (d - 1.0) * static_cast<double>(facets) - (d + 1.0) * (d - 2.0);
 }
 
+/// Has the polytope of all planes more vertices than that? Tried on an even part of them, unless they are
+/// few: vertices for each plane only become more with the planes, where hardly any is redundant.
+bool seems_larger(const PlanesAboutOrigin& planes, std::uint64_t vertices, HullOptions options) {
+  constexpr std::size_t kLargestStep = 8, kLeastStep = 4;  // one plane of so many
+  constexpr std::size_t kPlanesForRank = 5;                // fewer may bound no region
+  constexpr double kScatter = 1.25;                        // of the vertices of a part
+  const std::size_t count = planes.heights.size();
+  const std::size_t step = std::min(kLargestStep, count / (kPlanesForRank * planes.rank));
+  if (step < kLeastStep) return false;
+  PlanesAboutOrigin part;
+  part.rank = planes.rank;
+  for (std::size_t plane = 0; plane < count; plane += step) {
+    const double* normal = planes.normals.data() + plane * planes.rank;
+    part.normals.insert(part.normals.end(), normal, normal + planes.rank);
+    part.heights.push_back(planes.heights[plane]);
+  }
+  options.limits.max_facets =
+      static_cast<std::uint64_t>(kScatter * static_cast<double>(vertices) / static_cast<double>(step)) + 1;
+  return intersect_about_origin(part, options).status == HullStatus::kFacetLimit;
+}
+
 /// Scaled by this about its interior point the hull holds what all its outer planes enclose; infinite when
 /// that cannot be said.
 ///
@@ -112,6 +133,7 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   options.limits.max_facets = max_simplices;
   options.threads = threads;
   options.stop = stop;
+  if (max_simplices > 0 && seems_larger(planes, max_simplices, options)) return too_many;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
   if (polytope.status != HullStatus::kComplete) return too_many;
