@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <queue>
@@ -123,8 +122,8 @@ std::vector<std::uint32_t> SlabCover::choose_slabs() {
   std::priority_queue<Offer> offers;  // those that have become less
   for (std::size_t next = 0; next < first_offers.size() || !offers.empty();) {
     const bool is_first = offers.empty() || (next < first_offers.size() && offers.top() < first_offers[next]);
-    const Offer best = is_first ? first_offers[next] : offers.top();
-    is_first ? static_cast<void>(++next) : offers.pop();
+    const Offer best = is_first ? first_offers[next++] : offers.top();
+    if (!is_first) offers.pop();
     const std::uint64_t gain = gain_of(best.slab);  // gains only fall: an old one is an upper bound
     if (gain == 0) continue;
     const Offer now{gain, best.slab};
