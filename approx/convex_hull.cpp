@@ -247,8 +247,6 @@ class HullBuilder {
     growth_->choose_certificate_points(hull_.layout_.facets);
     detail("vertices", start);
     certify_facets(known, nullptr);
-    hull_.own_ids_.resize(complex().row_count);
-    for (std::uint32_t row = 0; row < complex().row_count; ++row) hull_.own_ids_[row] = SimplexId{row};
     hull_.simplex_count_ = complex().row_count;
     hull_.simplices_ = std::move(complex());
   }

@@ -28,73 +28,98 @@ void take_rows(std::span<double> table, std::size_t width, std::span<const std::
   }
 }
 
-/// Simplices of merged facets, facet by facet, and those that have a ridge with one.
-struct MergedRows {
-  std::vector<std::uint32_t> merged, beside;
-  std::vector<std::uint8_t> is_regular;      // per row
-  std::vector<std::uint32_t> cluster_order;  // clusters in the order of their first simplex
-  std::vector<std::uint32_t> end;            // of each one's simplices in `merged`
+/// What a row is, in the order in which they will stand.
+enum Kind : std::uint8_t { kRegular, kBeside, kMerged, kKinds };
+
+struct RowKinds {
+  std::vector<Kind> of_row;
+  std::array<std::size_t, kKinds> count{};
 };
 
 /// Looks at the neighbours of whatever is less, what is merged or what is not.
-void find_rows_beside(const SimplicialComplex& complex, const FacetClusters& clusters,
-                      std::size_t merged_count, MergedRows& rows) {
+RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clusters) {
   const auto count = static_cast<std::uint32_t>(complex.row_count);
-  const bool asks_merged = 2 * merged_count < count;
-  for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
-    if ((clusters.cluster_of[simplex] != kNone) != asks_merged) continue;
-    for (const SimplexId neighbour : complex.neighbours(SimplexId{simplex})) {
-      if ((clusters.cluster_of[neighbour.value] != kNone) == asks_merged) continue;
-      const std::uint32_t beside = asks_merged ? neighbour.value : simplex;
-      if (rows.is_regular[beside]) rows.beside.push_back(beside);
-      rows.is_regular[beside] = 0;
+  RowKinds kinds;
+  kinds.of_row.resize(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    const bool is_merged = clusters.cluster_of[row] != kNone;
+    kinds.of_row[row] = is_merged ? kMerged : kRegular;
+    kinds.count[kMerged] += is_merged ? 1u : 0u;
+  }
+  const std::size_t alone = count - kinds.count[kMerged];
+  const bool asks_merged = kinds.count[kMerged] < alone;
+  if (alone > 0) {
+    for (std::uint32_t row = 0; row < count; ++row) {
+      if ((kinds.of_row[row] == kMerged) != asks_merged) continue;
+      for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
+        if ((kinds.of_row[neighbour.value] == kMerged) == asks_merged) continue;
+        Kind& kind = kinds.of_row[asks_merged ? neighbour.value : row];
+        kinds.count[kBeside] += kind == kRegular ? 1u : 0u;
+        kind = kBeside;
+      }
     }
   }
-  std::sort(rows.beside.begin(), rows.beside.end());
+  kinds.count[kRegular] = alone - kinds.count[kBeside];
+  return kinds;
 }
 
-MergedRows find_merged_rows(const SimplicialComplex& complex, const FacetClusters& clusters) {
-  const auto count = static_cast<std::uint32_t>(complex.row_count);
-  MergedRows rows;
-  rows.is_regular.assign(count, 1);
-  std::vector<std::uint32_t> place_of(clusters.count, kNone);
-  std::size_t merged_count = 0;
-  for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
-    const std::uint32_t cluster = clusters.cluster_of[simplex];
-    if (cluster == kNone) continue;
-    ++merged_count;
-    rows.is_regular[simplex] = 0;
-    if (place_of[cluster] == kNone) {
-      place_of[cluster] = static_cast<std::uint32_t>(rows.cluster_order.size());
-      rows.cluster_order.push_back(cluster);
-      rows.end.push_back(0);
-    }
-    ++rows.end[place_of[cluster]];
-  }
-  find_rows_beside(complex, clusters, merged_count, rows);
-  std::exclusive_scan(rows.end.begin(), rows.end.end(), rows.end.begin(), 0u);
-  rows.merged.resize(merged_count);
-  for (std::uint32_t simplex = 0; simplex < count; ++simplex) {
-    const std::uint32_t cluster = clusters.cluster_of[simplex];
-    if (cluster != kNone) rows.merged[rows.end[place_of[cluster]]++] = simplex;
-  }
-  return rows;
-}
-
-/// Regular rows behind the front part fill the places that others leave there.
-std::vector<std::uint32_t> row_order(const MergedRows& rows, std::size_t regular) {
-  std::vector<std::uint32_t> old_of_new(rows.is_regular.size());
+/// Rows that are not among their kind change places; each kind's come in ascending order.
+std::vector<std::uint32_t> row_order(const RowKinds& kinds) {
+  std::array<std::uint32_t, kKinds> end{};
+  std::inclusive_scan(kinds.count.begin(), kinds.count.end(), end.begin(),
+                      [](std::size_t a, std::size_t b) { return static_cast<std::uint32_t>(a + b); });
+  const auto home_of = [&](std::uint32_t row) {
+    return row < end[0] ? kRegular : row < end[1] ? kBeside : kMerged;
+  };
+  std::vector<std::uint32_t> old_of_new(kinds.of_row.size());
   std::iota(old_of_new.begin(), old_of_new.end(), 0u);
-  auto from = static_cast<std::uint32_t>(regular);
-  for (std::uint32_t row = 0; row < regular; ++row) {
-    if (rows.is_regular[row]) continue;
-    while (!rows.is_regular[from]) ++from;
-    old_of_new[row] = from++;
+  std::array<std::vector<std::uint32_t>, kKinds> strangers;  // rows of each kind that stand elsewhere
+  for (std::uint32_t row = 0; row < old_of_new.size(); ++row)
+    if (kinds.of_row[row] != home_of(row)) strangers[kinds.of_row[row]].push_back(row);
+  std::array<std::size_t, kKinds> next{};
+  for (std::uint32_t row = 0; row < old_of_new.size(); ++row) {
+    const Kind home = home_of(row);
+    if (kinds.of_row[row] != home) old_of_new[row] = strangers[home][next[home]++];
   }
-  const auto tail = std::copy(rows.beside.begin(), rows.beside.end(),
-                              old_of_new.begin() + static_cast<std::ptrdiff_t>(regular));
-  std::copy(rows.merged.begin(), rows.merged.end(), tail);
   return old_of_new;
+}
+
+/// The places of clusters in the order of their first simplex, and how many simplices each has.
+struct ClusterPlaces {
+  std::vector<std::uint32_t> place_of, cluster_at, size;
+};
+
+ClusterPlaces find_places(const FacetClusters& clusters) {
+  ClusterPlaces places;
+  places.place_of.assign(clusters.count, kNone);
+  places.size.resize(clusters.count);
+  for (const std::uint32_t cluster : clusters.cluster_of) {
+    if (cluster == kNone) continue;
+    if (places.place_of[cluster] == kNone) {
+      places.place_of[cluster] = static_cast<std::uint32_t>(places.cluster_at.size());
+      places.cluster_at.push_back(cluster);
+    }
+    ++places.size[places.place_of[cluster]];
+  }
+  return places;
+}
+
+/// Fills the tables of merged facets.
+void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places,
+                    std::span<const std::uint32_t> old_of_new, FacetLayout& layout) {
+  const auto simplicial = static_cast<std::uint32_t>(layout.simplicial);
+  std::vector<std::uint32_t> next(clusters.count);
+  std::exclusive_scan(places.size.begin(), places.size.end(), next.begin(), simplicial);
+  layout.merged_begin = next;
+  layout.merged_begin.push_back(static_cast<std::uint32_t>(old_of_new.size()));
+  layout.simplices.resize(old_of_new.size());
+  layout.facet_of_merged.resize(old_of_new.size() - simplicial);
+  for (std::uint32_t row = 0; row < simplicial; ++row) layout.simplices[row] = SimplexId{row};
+  for (std::uint32_t row = simplicial; row < old_of_new.size(); ++row) {
+    const std::uint32_t place = places.place_of[clusters.cluster_of[old_of_new[row]]];
+    layout.simplices[next[place]++] = SimplexId{row};
+    layout.facet_of_merged[row - simplicial] = FacetId{simplicial + place};
+  }
 }
 
 /// |R a|, R given by its columns: the sums of all rows side by side.
@@ -108,42 +133,56 @@ double gradient_length(const std::array<double, D * D>& columns, const double* p
   return std::sqrt(length_sq);
 }
 
+/// The same where all other entries of R are 0, as those of frames that only scale.
+template <std::size_t D>
+double scaled_length(const std::array<double, D>& diagonal, const double* plane) {
+  double length_sq = 0.0;
+  for (std::size_t k = 0; k < D; ++k) length_sq += diagonal[k] * plane[k] * (diagonal[k] * plane[k]);
+  return std::sqrt(length_sq);
+}
+
 /// Sums over the simplices of each merged facet: determinants, those times the planes, and areas.
 struct MergedSums {
   std::vector<double> determinants, area_vectors, surface;
 };
 
-/// As the rows stand in memory: within a facet that is the order of its simplices.
+/// As the rows stand in memory.
 template <std::size_t D>
 void sum_rows(const SimplicialComplex& complex, std::span<const double> determinants,
-              std::span<const std::uint32_t> merged_of_row, std::span<const double> factor,
+              const FacetClusters& clusters, const ClusterPlaces& places, std::span<const double> factor,
               MergedSums& sums) {
   std::array<double, D * D> columns;
-  for (std::size_t k = 0; k < D; ++k)
-    for (std::size_t i = 0; i < D; ++i) columns[k * D + i] = factor[i * D + k];
+  std::array<double, D> diagonal;
+  bool is_diagonal = true;
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t i = 0; i < D; ++i) {
+      columns[k * D + i] = factor[i * D + k];
+      if (i != k && factor[i * D + k] != 0.0) is_diagonal = false;
+    }
+    diagonal[k] = factor[k * D + k];
+  }
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const std::size_t m = merged_of_row[row];
-    if (m == kNone) continue;
+    if (clusters.cluster_of[row] == kNone) continue;
+    const std::size_t m = places.place_of[clusters.cluster_of[row]];
     const double* plane = complex.plane(SimplexId{row}).data();
     double* area_vector = sums.area_vectors.data() + m * D;
     for (std::size_t k = 0; k < D; ++k) area_vector[k] += determinants[row] * plane[k];
-    sums.surface[m] += determinants[row] * gradient_length<D>(columns, plane);
+    const double length =
+        is_diagonal ? scaled_length<D>(diagonal, plane) : gradient_length<D>(columns, plane);
+    sums.surface[m] += determinants[row] * length;
     sums.determinants[m] += determinants[row];
   }
 }
 
 MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> determinants,
-                      const FacetClusters& clusters, const MergedRows& rows, std::span<const double> factor) {
-  std::vector<std::uint32_t> place_of(clusters.count), merged_of_row(complex.row_count, kNone);
-  for (std::uint32_t m = 0; m < clusters.count; ++m) place_of[rows.cluster_order[m]] = m;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row)
-    if (clusters.cluster_of[row] != kNone) merged_of_row[row] = place_of[clusters.cluster_of[row]];
+                      const FacetClusters& clusters, const ClusterPlaces& places,
+                      std::span<const double> factor) {
   MergedSums sums;
   sums.determinants.resize(clusters.count);
   sums.surface.resize(clusters.count);
   sums.area_vectors.resize(clusters.count * complex.rank);
   call_with_dimension<1, kMaxRank>(
-      complex.rank, [&](auto d) { sum_rows<d>(complex, determinants, merged_of_row, factor, sums); });
+      complex.rank, [&](auto d) { sum_rows<d>(complex, determinants, clusters, places, factor, sums); });
   return sums;
 }
 
@@ -153,6 +192,8 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   FacetLayout layout;
   layout.regular = layout.simplicial = layout.facets = complex.row_count;
   layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
+  layout.simplices.resize(complex.row_count);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) layout.simplices[row] = SimplexId{row};
   return layout;
 }
 
@@ -160,22 +201,15 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
                     std::span<const double> gradient_factor) {
   if (clusters.count == 0) return simplicial_layout(complex);
   const std::size_t rank = complex.rank;
-  const MergedRows rows = find_merged_rows(complex, clusters);
+  const RowKinds kinds = find_kinds(complex, clusters);
+  const ClusterPlaces places = find_places(clusters);
   FacetLayout layout;
-  layout.simplicial = complex.row_count - rows.merged.size();
-  layout.regular = layout.simplicial - rows.beside.size();
+  layout.regular = kinds.count[kRegular];
+  layout.simplicial = layout.regular + kinds.count[kBeside];
   layout.facets = layout.simplicial + clusters.count;
-  const std::vector<std::uint32_t> old_of_new = row_order(rows, layout.regular);
-
-  layout.facet_of_merged.reserve(rows.merged.size());
-  layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial));
-  for (std::size_t m = 0, i = 0; m < clusters.count; ++m) {
-    layout.facet_of_merged.insert(layout.facet_of_merged.end(), rows.end[m] - i,
-                                  FacetId{static_cast<std::uint32_t>(layout.simplicial + m)});
-    i = rows.end[m];
-    layout.merged_begin.push_back(static_cast<std::uint32_t>(layout.simplicial + i));
-  }
-  MergedSums sums = sum_merged(complex, determinants, clusters, rows, gradient_factor);
+  const std::vector<std::uint32_t> old_of_new = row_order(kinds);
+  list_simplices(clusters, places, old_of_new, layout);
+  MergedSums sums = sum_merged(complex, determinants, clusters, places, gradient_factor);
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
   const std::span<const std::uint32_t> alone = std::span(old_of_new).first(layout.simplicial);
@@ -185,7 +219,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
     determinants[row] = sums.determinants[m];
-    std::copy_n(clusters.planes.data() + std::size_t{rows.cluster_order[m]} * rank, rank,
+    std::copy_n(clusters.planes.data() + std::size_t{places.cluster_at[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
   permute_topology(complex, old_of_new, layout.facets);

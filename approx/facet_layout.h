@@ -18,16 +18,18 @@ struct FacetClusters {
   std::uint32_t count = 0;
 };
 
-/// How the rows of a complex group into facets. The rows are ordered so that what is simple needs no table:
+/// How the rows of a complex group into facets. What is simple needs no table:
 ///   [0, regular)            facet f is simplex f, and so are its neighbours
 ///   [regular, simplicial)   facet f is simplex f; some neighbour is a merged facet
-///   [simplicial, facets)    merged facets: facet simplicial + m is the simplices merged_begin[m] up to, not
-///                           including, merged_begin[m + 1]
+///   [simplicial, facets)    merged facets: facet simplicial + m is the rows simplices[merged_begin[m]] up
+///   to,
+///                           not including, simplices[merged_begin[m + 1]], ascending
 struct FacetLayout {
   std::size_t regular = 0;
   std::size_t simplicial = 0;
   std::size_t facets = 0;
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
+  std::vector<SimplexId> simplices;         ///< facet by facet: 0, 1, 2 .. simplicial - 1, then the merged
   std::vector<FacetId> facet_of_merged;     ///< of simplex simplicial + i
   /// Merged facets x rank: the sum of determinant times plane over the simplices; as a covector of the frame
   /// it points along the facet's mean normal, and its product with a direction is a projected area.
@@ -38,18 +40,23 @@ struct FacetLayout {
   FacetId facet_of(SimplexId simplex) const {
     return simplex.value < simplicial ? FacetId{simplex.value} : facet_of_merged[simplex.value - simplicial];
   }
+  std::span<const SimplexId> simplices_of(FacetId facet) const {
+    if (facet.value < simplicial) return {simplices.data() + facet.value, 1};
+    const std::size_t merged = facet.value - simplicial;
+    return {simplices.data() + merged_begin[merged], merged_begin[merged + 1] - merged_begin[merged]};
+  }
 };
 
 /// The layout without merging.
 FacetLayout simplicial_layout(const SimplicialComplex& complex);
 
-/// Puts the rows of a compacted complex, and the determinants with them, into the order of FacetLayout. Then
-/// row f of complex.planes becomes the plane of facet f, determinants[f] the sum over its simplices; rows
-/// behind the facets' are given back.
+/// Puts the rows of a compacted complex that are facets alone, and the determinants with them, in front;
+/// other rows move only to make room. Then row f of complex.planes becomes the plane of facet f,
+/// determinants[f] the sum over its simplices; rows behind the facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
 ///         above plane a in input units.
-/// Order   merged facets stand in the order of their first simplex; rows that can stay do.
+/// Order   merged facets stand in the order of their first simplex, as the rows were; rows that can stay do.
 /// Cost    O(rows rank).
 FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
                     std::span<const double> gradient_factor);

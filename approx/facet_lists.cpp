@@ -32,18 +32,15 @@ class FacetLister {
 
   void append_facet(std::uint32_t facet, LastMet& last, FacetLists& lists) const {
     const bool is_simplicial = facet < layout_.simplicial;
-    const std::size_t merged = facet - layout_.simplicial;
-    const std::uint32_t begin = is_simplicial ? facet : layout_.merged_begin[merged];
-    const std::uint32_t end = is_simplicial ? facet + 1 : layout_.merged_begin[merged + 1];
     std::vector<std::uint32_t>&vertices = lists.vertices.values, &neighbours = lists.neighbours.values;
     last.facet[facet] = facet;
-    for (std::uint32_t simplex = begin; simplex < end; ++simplex) {
-      for (const PointId id : complex_.vertices(SimplexId{simplex})) {
+    for (const SimplexId simplex : layout_.simplices_of(FacetId{facet})) {
+      for (const PointId id : complex_.vertices(simplex)) {
         if (last.vertex[id.value] == facet || !is_vertex_[id.value]) continue;
         last.vertex[id.value] = facet;
         vertices.push_back(id.value);
       }
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{simplex})) {
+      for (const SimplexId neighbour : complex_.neighbours(simplex)) {
         const std::uint32_t other = layout_.facet_of(neighbour).value;
         if (!is_simplicial && last.facet[other] == facet) continue;
         last.facet[other] = facet;

@@ -1,5 +1,7 @@
 #include "approx/facet_table.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,30 +20,39 @@ namespace {
 void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
                  const CertificatePoints& points, const double* normals, std::span<double> low,
                  std::span<double> high) {
+  constexpr std::size_t kFacetsAtATime = 64, kAhead = 8;  // rows whose way from memory has begun
   const std::size_t dimension = points.dimension;
-  std::vector<std::uint32_t> last_facet(points.row_of_point.size(), FacetId::kNone);
-  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet) {
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> last_facet_of_thread(
+      [&] { return std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone); });
+  const auto measure = [&](std::uint32_t facet, std::vector<std::uint32_t>& last_facet) {
     double smallest = HUGE_VAL, largest = -HUGE_VAL;
     const double* normal = normals + facet * dimension;
     const auto meet = [&](std::uint32_t id) {
       if (last_facet[id] == facet) return;
-      last_facet[id] = static_cast<std::uint32_t>(facet);
+      last_facet[id] = facet;
       const double* point = points.rows.data() + std::size_t{points.row_of_point[id]} * dimension;
       double dot = 0.0;
       for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
       smallest = std::min(smallest, dot);
       largest = std::max(largest, dot);
     };
-    const std::size_t merged = facet - layout.simplicial;
     if (vertices != nullptr) {
-      for (const std::uint32_t id : vertices->row(merged)) meet(id);
+      for (const std::uint32_t id : vertices->row(facet - layout.simplicial)) meet(id);
     } else {
-      for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row)
-        for (const PointId id : complex.vertices(SimplexId{row})) meet(id.value);
+      const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
+      for (std::size_t i = 0; i < simplices.size(); ++i) {
+        __builtin_prefetch(complex.vertices(simplices[std::min(i + kAhead, simplices.size() - 1)]).data());
+        for (const PointId id : complex.vertices(simplices[i])) meet(id.value);
+      }
     }
     low[facet] = smallest;
     high[facet] = largest;
-  }
+  };
+  for_each_block(layout.facets - layout.simplicial, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t>& last_facet = last_facet_of_thread.local();
+    for (std::size_t merged = begin; merged < end; ++merged)
+      measure(static_cast<std::uint32_t>(layout.simplicial + merged), last_facet);
+  });
 }
 
 /// Sets entries of the merged facets' planes to 0 that are rounding of their fits. In the frame all axes are

@@ -87,10 +87,7 @@ std::uint64_t Hull::simplex_count_of(FacetId facet) const {
 
 std::span<const SimplexId> Hull::simplices_of(FacetId facet) const {
   if (pulled_) return pulled_->of(facet);
-  if (is_simplicial(facet)) return {own_ids_.data() + facet.value, 1};
-  const std::size_t merged = facet.value - layout_.simplicial;
-  const std::uint32_t begin = layout_.merged_begin[merged];
-  return {own_ids_.data() + begin, layout_.merged_begin[merged + 1] - begin};
+  return layout_.simplices_of(facet);
 }
 
 }  // namespace ndhull

@@ -187,7 +187,6 @@ class Hull {
   // Made when they are first asked for: planes, widths and areas need none.
   std::unique_ptr<Lists> lists_ = std::make_unique<Lists>();
   SimplicialComplex simplices_;
-  std::vector<SimplexId> own_ids_;  // 0, 1, 2, ...
   std::uint64_t simplex_count_ = 0;
   std::unique_ptr<PulledSimplices> pulled_;  // of a hull that was found without simplices
   LengthUnit length_unit_;

@@ -22,8 +22,9 @@ void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& l
   for (std::uint32_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
     if (found[merged] >= complex.rank) continue;
     points.clear();
-    for (std::uint32_t row = layout.merged_begin[merged]; row < layout.merged_begin[merged + 1]; ++row) {
-      for (const PointId id : complex.vertices(SimplexId{row})) {
+    const FacetId facet{static_cast<std::uint32_t>(layout.simplicial) + merged};
+    for (const SimplexId simplex : layout.simplices_of(facet)) {
+      for (const PointId id : complex.vertices(simplex)) {
         if (last_facet[id.value] == merged) continue;
         last_facet[id.value] = merged;
         points.push_back(id);
@@ -73,12 +74,13 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
   std::vector<bool> is_vertex = find_corners(complex, 0, layout.simplicial, point_count);
   std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
-  for (auto row = static_cast<std::uint32_t>(layout.simplicial); row < complex.row_count; ++row) {
-    const std::uint32_t facet = layout.facet_of(SimplexId{row}).value;
-    for (const PointId id : complex.vertices(SimplexId{row})) {
-      if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
-      last_facet[id.value] = facet;
-      incidences.emplace_back(id.value, facet);
+  for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {
+    for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
+      for (const PointId id : complex.vertices(simplex)) {
+        if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
+        last_facet[id.value] = facet;
+        incidences.emplace_back(id.value, facet);
+      }
     }
   }
   std::sort(incidences.begin(), incidences.end());
