@@ -73,6 +73,50 @@ class Merging {
     const std::size_t count = covering_.planes.size();
     clusters_.resize(count);
     live_ = count;
+    constexpr std::size_t kSmallTables = std::size_t{1} << 21;
+    if (count * (space_.vertex_count() + count) <= kSmallTables) {
+      list_by_tables();
+    } else {
+      list_by_facets();
+    }
+    for (std::uint32_t id = 0; id < count; ++id) {
+      Cluster& cluster = clusters_[id];
+      cluster.plane = std::move(covering_.planes[id]);
+      if (cluster.plane.height == 0.0) {  // a simplex with its own plane
+        cluster.plane = measure_plane(space_, cluster.plane.normal, cluster.vertices, work_);
+      } else {
+        cluster.plane.low = lowest_dot(space_, cluster.plane.normal, cluster.vertices);
+      }
+      cluster.tops.assign(1, cluster.plane.highest);
+      cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
+    }
+  }
+
+  /// Vertices and neighbours of few facets: a table each, filled as the rows stand in memory.
+  void list_by_tables() {
+    const std::size_t count = clusters_.size(), vertices = space_.vertex_count();
+    std::vector<std::uint8_t> has_vertex(count * vertices, 0), has_neighbour(count * count, 0);
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
+      const std::size_t id = covering_.facet_of[row];
+      if (id == kNone) continue;
+      for (const PointId point : complex_.vertices(SimplexId{row}))
+        has_vertex[id * vertices + space_.row_of(point)] = 1;
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{row}))
+        has_neighbour[id * count + covering_.facet_of[neighbour.value]] = 1;
+    }
+    const auto list = [](const std::uint8_t* flags, std::size_t size, std::vector<std::uint32_t>& entries) {
+      for (std::uint32_t entry = 0; entry < size; ++entry)
+        if (flags[entry] != 0) entries.push_back(entry);
+    };
+    for (std::size_t id = 0; id < count; ++id) {
+      has_neighbour[id * count + id] = 0;
+      list(has_vertex.data() + id * vertices, vertices, clusters_[id].vertices);
+      list(has_neighbour.data() + id * count, count, clusters_[id].neighbours);
+    }
+  }
+
+  void list_by_facets() {
+    const std::size_t count = clusters_.size();
     std::vector<std::uint32_t> begin(count + 1, 0), rows(complex_.row_count);
     for (const std::uint32_t id : covering_.facet_of)
       if (id != kNone) ++begin[id + 1];
@@ -87,10 +131,14 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
+    constexpr std::uint32_t kAhead = 8;  // rows whose way from memory has begun
     for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
       facet_seen[id] = id;
       for (std::uint32_t i = begin[id]; i < begin[id + 1]; ++i) {
+        const SimplexId later{rows[std::min(i + kAhead, begin[count] - 1)]};
+        __builtin_prefetch(complex_.vertices(later).data());
+        __builtin_prefetch(&complex_.neighbours(later).back());
         for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
           add(cluster.vertices, vertex_seen, space_.row_of(point), id);
         for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))
@@ -98,14 +146,6 @@ class Merging {
       }
       std::sort(cluster.vertices.begin(), cluster.vertices.end());
       std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
-      cluster.plane = std::move(covering_.planes[id]);
-      if (cluster.plane.height == 0.0) {  // a simplex with its own plane
-        cluster.plane = measure_plane(space_, cluster.plane.normal, cluster.vertices, work_);
-      } else {
-        cluster.plane.low = lowest_dot(space_, cluster.plane.normal, cluster.vertices);
-      }
-      cluster.tops.assign(1, cluster.plane.highest);
-      cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
     }
   }
 
@@ -113,12 +153,8 @@ class Merging {
     return rule_.wants(a.plane, a.centrum, b.plane, b.centrum);
   }
 
-  /// The union's vertices (united_) and the mean of the normals, weighted by the number of vertices
-  /// (normal_).
-  void unite(const Cluster& a, const Cluster& b) {
-    united_.clear();
-    std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
-                   std::back_inserter(united_));
+  /// normal_: the mean of the normals, weighted by the number of vertices.
+  void take_mean(const Cluster& a, const Cluster& b) {
     normal_.resize(space_.rank());
     double length_sq = 0.0;
     for (std::size_t k = 0; k < normal_.size(); ++k) {
@@ -130,8 +166,33 @@ class Merging {
     for (double& entry : normal_) entry /= std::sqrt(length_sq);
   }
 
+  /// united_: the union's vertices.
+  void unite(const Cluster& a, const Cluster& b) {
+    united_.clear();
+    std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                   std::back_inserter(united_));
+  }
+
+  /// Is the union too wide to be fitted, among its vertices and near_, along normal_? The first few vertices
+  /// tell of most.
+  bool is_hopeless(const Cluster& a, const Cluster& b) const {
+    const double most = kHopeless * rule_.width_cap;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    const auto meet = [&](std::uint32_t row) {
+      const double dot = std::inner_product(normal_.begin(), normal_.end(), space_.row(row), 0.0);
+      low = std::min(low, dot);
+      high = std::max(high, dot);
+      return high - low > most;
+    };
+    for (const std::uint32_t row : near_)
+      high = std::max(high, std::inner_product(normal_.begin(), normal_.end(), space_.row(row), 0.0));
+    return std::any_of(a.vertices.begin(), a.vertices.end(), meet) ||
+           std::any_of(b.vertices.begin(), b.vertices.end(), meet);
+  }
+
   FittedPlane mean_plane(const Cluster& a, const Cluster& b) {
     unite(a, b);
+    take_mean(a, b);
     return measure_plane(space_, normal_, united_, work_);
   }
 
@@ -150,9 +211,11 @@ class Merging {
   void offer_tops(std::uint32_t a, std::uint32_t b, double least) {
     const Cluster& first = clusters_[a];
     const Cluster& second = clusters_[b];
-    unite(first, second);
+    take_mean(first, second);
     near_ = first.tops;
     near_.insert(near_.end(), second.tops.begin(), second.tops.end());
+    if (is_hopeless(first, second)) return;  // the more so over all points
+    unite(first, second);
     const double width = turn_among(space_, normal_, near_, united_, kTrialSteps, work_);
     if (width > rule_.width_cap) return;
     offers_.push({std::max(width, least), a, b, first.version, second.version, Stage::kTops});
