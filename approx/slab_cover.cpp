@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
-#include <queue>
 
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
@@ -15,10 +15,6 @@ namespace ndhull {
 namespace {
 
 bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
-
-void count_up(std::uint8_t& count) {
-  if (count < 255) ++count;
-}
 
 /// The simplices of each facet, ascending.
 struct FacetMembers {
@@ -51,9 +47,23 @@ SlabCover::SlabCover(const SimplicialComplex& complex, const WidthSpace& space, 
       is_convex_(is_convex),
       grower_(complex, space, rule, is_convex),
       seeds_(complex, space, rule == nullptr && grower_.meets_all_points()),
-      scratch_([this] { return SlabScratch(complex_, space_); }) {}
+      scratch_([this] { return SlabScratch(space_); }) {
+  constexpr std::size_t kWorthSampling = 4096;  // simplices
+  if (rule == nullptr && grower_.meets_all_points() && live_count() >= kWorthSampling)
+    wide_.emplace(complex_, space_, grower_, seeds_, [this]() -> SlabScratch& { return scratch_.local(); });
+}
 
 Covering SlabCover::cover(double width, const CoverEffort& effort) {
+  if (wide_) {
+    if (std::optional<Covering> covering = wide_->cover(width, effort)) {
+      depth_of_.assign(complex_.row_count, 0.0f);
+      gather_strays(*covering, width);
+      wide_->find_depths(*covering, depth_of_);
+      measure_facets(*covering, width, effort);
+      return std::move(*covering);
+    }
+  }
+  planes_.clear();
   slabs_.clear();
   members_.clear();
   depths_.clear();
@@ -68,7 +78,7 @@ Covering SlabCover::cover(double width, const CoverEffort& effort) {
       add_slabs(seeds, width, effort);
     }
   }
-  return assign(choose_slabs(), width, effort);
+  return assign(choose_slabs(slabs_, members_, seeds_.hits()), width, effort);
 }
 
 void SlabCover::add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort) {
@@ -80,77 +90,11 @@ void SlabCover::add_slabs(std::span<const SeedChoice> seeds, double width, const
   });
   for (GrownSlab& slab : std::span(batch_).first(seeds.size())) {
     seeds_.add_slab(slab.members);
-    slabs_.push_back({std::move(slab.plane), members_.size(), members_.size() + slab.members.size()});
+    planes_.push_back(std::move(slab.plane));
+    slabs_.push_back({members_.size(), members_.size() + slab.members.size()});
     members_.insert(members_.end(), slab.members.begin(), slab.members.end());
     depths_.insert(depths_.end(), slab.depths.begin(), slab.depths.end());
   }
-}
-
-// Greedy: the slab with the largest gain first, where a simplex counts the more the fewer slabs hold it; then
-// those are dropped, last chosen first, that others have made superfluous.
-std::vector<std::uint32_t> SlabCover::choose_slabs() {
-  std::vector<std::uint8_t> times(complex_.row_count, 0);  // chosen slabs that hold it, at most 255
-  // Of holding it: 0 once a chosen slab does. Whole numbers: their sums are exact, and quick.
-  std::vector<std::uint16_t> worth(complex_.row_count, 0);
-  const std::span<const std::uint8_t> hits = seeds_.hits();
-  for (std::size_t row = 0; row < worth.size(); ++row)
-    if (hits[row] > 0) worth[row] = static_cast<std::uint16_t>(0xFFFFu / hits[row]);
-  const auto gain_of = [&](std::uint32_t slab) {
-    std::uint64_t gain = 0;
-    for (std::size_t i = slabs_[slab].begin; i < slabs_[slab].end; ++i) gain += worth[members_[i]];
-    return gain;
-  };
-  struct Offer {
-    std::uint64_t gain;
-    std::uint32_t slab;
-    bool operator<(const Offer& other) const {
-      return gain != other.gain ? gain < other.gain : slab > other.slab;
-    }
-  };
-  std::vector<Offer> first_offers;
-  std::vector<std::uint32_t> chosen;
-  for (std::uint32_t slab = 0; slab < slabs_.size(); ++slab) {
-    const std::uint32_t seed = members_[slabs_[slab].begin];
-    if (slabs_[slab].end - slabs_[slab].begin > 1 || hits[seed] > 1) {
-      first_offers.push_back({gain_of(slab), slab});
-    } else {  // no other slab holds its simplex
-      chosen.push_back(slab);
-      times[seed] = 1;
-    }
-  }
-  std::sort(first_offers.begin(), first_offers.end(), [](const Offer& a, const Offer& b) { return b < a; });
-  std::priority_queue<Offer> offers;  // those that have become less
-  for (std::size_t next = 0; next < first_offers.size() || !offers.empty();) {
-    const bool is_first = offers.empty() || (next < first_offers.size() && offers.top() < first_offers[next]);
-    const Offer best = is_first ? first_offers[next++] : offers.top();
-    if (!is_first) offers.pop();
-    const std::uint64_t gain = gain_of(best.slab);  // gains only fall: an old one is an upper bound
-    if (gain == 0) continue;
-    const Offer now{gain, best.slab};
-    if ((!offers.empty() && now < offers.top()) || (next < first_offers.size() && now < first_offers[next])) {
-      offers.push(now);
-      continue;
-    }
-    chosen.push_back(best.slab);
-    for (std::size_t i = slabs_[best.slab].begin; i < slabs_[best.slab].end; ++i) {
-      count_up(times[members_[i]]);
-      worth[members_[i]] = 0;
-    }
-  }
-  std::vector<std::uint32_t> kept;
-  for (std::size_t c = chosen.size(); c-- > 0;) {
-    const Slab& slab = slabs_[chosen[c]];
-    const auto begin = members_.begin() + static_cast<std::ptrdiff_t>(slab.begin);
-    const auto end = members_.begin() + static_cast<std::ptrdiff_t>(slab.end);
-    // A simplex in 255 slabs or more counts as in just so many: a slab too many may stay.
-    if (std::any_of(begin, end, [&](std::uint32_t row) { return times[row] == 1; })) {
-      kept.push_back(chosen[c]);
-    } else {
-      std::for_each(begin, end, [&](std::uint32_t row) { --times[row]; });
-    }
-  }
-  std::reverse(kept.begin(), kept.end());
-  return kept;
 }
 
 // Each simplex goes to the slab in which it lies highest.
@@ -161,7 +105,7 @@ Covering SlabCover::assign(const std::vector<std::uint32_t>& chosen, double widt
   covering.planes.reserve(chosen.size());
   depth_of_.assign(complex_.row_count, HUGE_VALF);
   for (const std::uint32_t index : chosen) {
-    Slab& slab = slabs_[index];
+    const MemberRange& slab = slabs_[index];
     const auto facet = static_cast<std::uint32_t>(covering.planes.size());
     for (std::size_t i = slab.begin; i < slab.end; ++i) {
       const std::uint32_t simplex = members_[i];
@@ -169,7 +113,7 @@ Covering SlabCover::assign(const std::vector<std::uint32_t>& chosen, double widt
       depth_of_[simplex] = depths_[i];
       covering.facet_of[simplex] = facet;
     }
-    covering.planes.push_back(std::move(slab.plane));
+    covering.planes.push_back(std::move(planes_[index]));
   }
   gather_strays(covering, width);
   measure_facets(covering, width, effort);
@@ -234,15 +178,16 @@ double SlabCover::depth_below(FittedPlane& plane, Members simplices) {
 /// Connected parts of facets: each row's part is known by its first row.
 class FacetParts {
  public:
-  FacetParts(const SimplicialComplex& complex, const std::vector<std::uint32_t>& facet_of)
-      : first_(complex.row_count) {
+  /// Id: as small as holds all facets, since looking these up is what takes the time; its largest: none.
+  template <class Id>
+  FacetParts(const SimplicialComplex& complex, const std::vector<Id>& facet_of) : first_(complex.row_count) {
     // Rows as they stand in memory; each ridge from the later of its two. Which neighbours are of the same
     // facet is not to be foreseen: they are listed without a branch for each.
     std::array<std::uint32_t, kMaxRank> same;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       first_[row] = row;
-      const std::uint32_t facet = facet_of[row];
-      if (facet == kNone) continue;
+      const Id facet = facet_of[row];
+      if (facet == std::numeric_limits<Id>::max()) continue;
       std::size_t count = 0;
       for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
         same[count] = neighbour.value;
@@ -271,7 +216,10 @@ class FacetParts {
 
 /// All connected parts of the facets but the largest of each, in the order of their first simplex.
 std::vector<SlabCover::Stray> SlabCover::find_strays(const Covering& covering) const {
-  FacetParts parts(complex_, covering.facet_of);
+  const bool are_few = covering.planes.size() < std::numeric_limits<std::uint16_t>::max();
+  FacetParts parts = are_few ? FacetParts(complex_, std::vector<std::uint16_t>(covering.facet_of.begin(),
+                                                                               covering.facet_of.end()))
+                             : FacetParts(complex_, covering.facet_of);
   std::vector<std::uint32_t> size_of(complex_.row_count, 0), largest_of(covering.planes.size(), kNone);
   std::vector<std::uint32_t> others;  // first rows of the parts that are not a facet's first
   for (std::uint32_t row = 0; row < complex_.row_count; ++row) {

@@ -5,21 +5,23 @@
 // that each simplex is within T below the supporting plane of one of them. That looks at the whole hull at
 // once, which merging neighbours pair by pair cannot: on spheres it needs 15 to 40 % fewer facets.
 //
-// Papers  Chvatal. A greedy heuristic for the set-covering problem. Mathematics of Operations Research 4(3),
-//         1979. Cohen-Steiner, Alliez, Desbrun. Variational shape approximation. SIGGRAPH 2004 (facets as
-//         regions grown from seeds around refitted planes; there in 3-d and for the mean error).
+// Paper  Cohen-Steiner, Alliez, Desbrun. Variational shape approximation. SIGGRAPH 2004 (facets as regions
+//        grown from seeds around refitted planes; there in 3-d and for the mean error).
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "approx/covering.h"
+#include "approx/slab_choice.h"
 #include "approx/slab_growth.h"
 #include "approx/slab_seeds.h"
+#include "approx/wide_cover.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 
@@ -35,17 +37,14 @@ class SlabCover {
 
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
   /// wider becomes a facet all the same. The same for any number of threads.
-  /// Cost  growing the slabs (slab_growth.h), which hold each simplex 1.5 to 5 times. 4 bytes a row for each
+  /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes a
+  /// row for each
   ///       thread, 8 for each place in a slab.
   Covering cover(double width, const CoverEffort& effort);
 
   std::size_t live_count() const { return seeds_.live_count(); }
 
  private:
-  struct Slab {
-    FittedPlane plane;
-    std::size_t begin = 0, end = 0;  // of members_
-  };
   using Members = std::span<const std::uint32_t>;
   /// A part of a facet that hangs together with none of its others.
   struct Stray {
@@ -54,7 +53,6 @@ class SlabCover {
   };
 
   void add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort);
-  std::vector<std::uint32_t> choose_slabs();
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
   void measure_facets(Covering& covering, double width, const CoverEffort& effort);
   void settle(Members members, double width, const CoverEffort& effort, FittedPlane& plane);
@@ -68,8 +66,10 @@ class SlabCover {
   SlabGrower grower_;
   SlabSeeds seeds_;
   std::vector<GrownSlab> batch_;
+  std::optional<WideCover> wide_;  // of enough simplices with few points
   tbb::enumerable_thread_specific<SlabScratch> scratch_;
-  std::vector<Slab> slabs_;
+  std::vector<FittedPlane> planes_;     // of all slabs
+  std::vector<MemberRange> slabs_;      // of members_
   std::vector<std::uint32_t> members_;  // of all slabs
   std::vector<float> depths_;           // of each member in its slab
   std::vector<float> depth_of_;         // per row: in the facet it was assigned to

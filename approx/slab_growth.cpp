@@ -16,8 +16,12 @@ constexpr std::size_t kFewRows = 4096;
 
 }  // namespace
 
-SlabScratch::SlabScratch(const SimplicialComplex& complex, const WidthSpace& space)
-    : met(complex.row_count), vertex_stamp(space.table().count(), 0), dots(space.table().count()) {
+SlabScratch::SlabScratch(const WidthSpace& space)
+    : vertex_stamp(space.table().count(), 0), dots(space.table().count()) {}
+
+void SlabScratch::prepare(const SimplicialComplex& complex, const WidthSpace& space) {
+  if (!met.empty()) return;
+  met.resize(complex.row_count);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     if (complex.state[row] != SimplexState::kLive) continue;
     for (const PointId id : complex.vertices(SimplexId{row})) met[row].mix ^= space.row_of(id);
@@ -61,6 +65,7 @@ bool SlabGrower::may_extend(std::uint32_t seed, const double* normal, double wid
 /// is not among them. Products that have scratch.vertex_pass already are taken as they are.
 void SlabGrower::flood(std::uint32_t seed, const FittedPlane& plane, double width, std::size_t enough,
                        SlabScratch& scratch) const {
+  scratch.prepare(complex_, space_);
   call_with_dimension<2, kMaxRank>(complex_.rank,
                                    [&](auto d) { flood_in<d>(seed, plane, width, enough, scratch); });
 }
@@ -194,15 +199,49 @@ void SlabGrower::measure(FittedPlane& plane, SlabScratch& scratch) const {
 }
 
 /// The plane that makes the seed narrowest where points are above it.
-void SlabGrower::fit_plane_to_seed(GrownSlab& slab, double width, const CoverEffort& effort,
-                                   SlabScratch& scratch) const {
-  const std::uint32_t alone[] = {slab.seed};
+void SlabGrower::fit_plane_to_seed(std::uint32_t seed, double width, const CoverEffort& effort,
+                                   FittedPlane& plane, SlabScratch& scratch) const {
+  const std::uint32_t alone[] = {seed};
   const std::span<const std::uint32_t> vertices = vertices_of(alone, scratch);
-  slab.plane = measure_plane(space_, slab.plane.normal, vertices, scratch.fit);
-  if (rule_ != nullptr) rule_->learn_height(SimplexId{slab.seed}, slab.plane.height);
-  if (slab.plane.width() > width)
-    slab.plane = narrow_plane(space_, slab.plane, vertices, 4 * effort.fit_steps, scratch.fit);
-  slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
+  plane = measure_plane(space_, plane.normal, vertices, scratch.fit);
+  if (rule_ != nullptr) rule_->learn_height(SimplexId{seed}, plane.height);
+  if (plane.width() > width) plane = narrow_plane(space_, plane, vertices, 4 * effort.fit_steps, scratch.fit);
+}
+
+bool SlabGrower::holds(const FittedPlane& plane, double width, std::uint32_t simplex) const {
+  const auto vertices = complex_.vertices(SimplexId{simplex});
+  return std::all_of(vertices.begin(), vertices.end(), [&](PointId id) {
+    return dot_of(plane.normal.data(), space_.row_of(id)) >= plane.height - kDepthRoom * width;
+  });
+}
+
+void SlabGrower::find_vertices_of(VertexSlab& slab, double width, const CoverEffort& effort,
+                                  SlabScratch& scratch) const {
+  FittedPlane& plane = slab.plane;
+  plane.normal.resize(complex_.rank);
+  space_.normal_of(complex_.plane(SimplexId{slab.seed}), plane.normal.data());
+  measure(plane, scratch);
+  const bool is_first = holds(plane, width, slab.seed);
+  if (!is_first) fit_plane_to_seed(slab.seed, width, effort, plane, scratch);
+  if (is_first || holds(plane, width, slab.seed)) {
+    if (!is_first) measure(plane, scratch);
+    FittedPlane turned = plane;
+    turn_to_vertices_below(turned, width, effort, scratch);
+    if (holds(turned, width, slab.seed)) {
+      plane = std::move(turned);
+    } else {  // lost by rounding
+      measure(plane, scratch);
+      find_vertices_below(plane, width, scratch);
+    }
+    slab.vertices = scratch.vertices;
+  } else {
+    slab.vertices.clear();
+    for (const PointId id : complex_.vertices(SimplexId{slab.seed}))
+      slab.vertices.push_back(space_.row_of(id));
+  }
+  slab.depths.clear();
+  for (const std::uint32_t row : slab.vertices)
+    slab.depths.push_back(std::max(0.0, plane.height - dot_of(plane.normal.data(), row)));
 }
 
 /// scratch.vertices: those less than `width` below the plane, with products for the flood to come. The last
@@ -265,7 +304,8 @@ void SlabGrower::grow(GrownSlab& slab, double width, const CoverEffort& effort, 
     set_own_plane(slab);
   } else {
     if (!may_extend(slab.seed, slab.plane.normal.data(), width)) return;
-    fit_plane_to_seed(slab, width, effort, scratch);
+    fit_plane_to_seed(slab.seed, width, effort, slab.plane, scratch);
+    slab.depths.assign(1, rounded_up_depth(std::max(0.0, slab.plane.width())));
   }
   const bool turns_before = rule_ == nullptr && meets_all_points();
   ++scratch.vertex_pass;

@@ -34,6 +34,14 @@ struct GrownSlab {
   std::vector<float> depths;           ///< [distance] of each below the plane's height, rounded up
 };
 
+/// A slab by the vertices that are in it, whatever simplices they have.
+struct VertexSlab {
+  std::uint32_t seed = 0;
+  FittedPlane plane;                    ///< measured
+  std::vector<std::uint32_t> vertices;  ///< rows of the space, those of the seed among them
+  std::vector<double> depths;           ///< [distance] of each below the plane's height
+};
+
 /// What a flood knows of a simplex without looking at its vertices.
 struct MetSimplex {
   std::uint32_t flood = 0;  ///< the last that met it
@@ -42,14 +50,16 @@ struct MetSimplex {
 
 /// What one thread needs to grow slabs, and to fit their planes.
 struct SlabScratch {
-  SlabScratch(const SimplicialComplex& complex, const WidthSpace& space);
+  explicit SlabScratch(const WidthSpace& space);
+  /// Before the first flood.
+  void prepare(const SimplicialComplex& complex, const WidthSpace& space);
   /// At least so many places in `grown`.
   void make_room(std::size_t count);
   void copy_grown(GrownSlab& slab) const;
 
   PlaneFitWork fit;
   PlaneFitWork rule_fit;                    // of the rule, while a slab grows by what `fit` has measured
-  std::vector<MetSimplex> met;              // per row of the complex
+  std::vector<MetSimplex> met;              // per row of the complex; empty before the first flood
   std::vector<std::uint32_t> vertex_stamp;  // per row of the space: last pass over vertices
   std::uint32_t flood = 0, vertex_pass = 0;
   std::vector<double> dots;  // per row of the space with this pass: product with the flood's normal
@@ -74,6 +84,12 @@ class SlabGrower {
   ///       space is large.
   void grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
 
+  /// Fills `slab` from its seed, with the vertices that are less than `width` below its plane. Of a seed that
+  /// is wider than `width` alone only its own. Precondition: meets_all_points().
+  /// Cost  some three products of a direction with all points.
+  void find_vertices_of(VertexSlab& slab, double width, const CoverEffort& effort,
+                        SlabScratch& scratch) const;
+
   /// So few points that each large slab has its products with all of them.
   bool meets_all_points() const;
 
@@ -85,8 +101,9 @@ class SlabGrower {
   bool may_extend(std::uint32_t seed, const double* normal, double width) const;
   double dot_of(const double* normal, std::uint32_t row) const;
   void set_own_plane(GrownSlab& slab) const;
-  void fit_plane_to_seed(GrownSlab& slab, double width, const CoverEffort& effort,
+  void fit_plane_to_seed(std::uint32_t seed, double width, const CoverEffort& effort, FittedPlane& plane,
                          SlabScratch& scratch) const;
+  bool holds(const FittedPlane& plane, double width, std::uint32_t simplex) const;
   void measure(FittedPlane& plane, SlabScratch& scratch) const;
   void find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const;
   void turn_to_vertices_below(FittedPlane& plane, double width, const CoverEffort& effort,

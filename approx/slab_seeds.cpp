@@ -12,21 +12,33 @@ constexpr std::size_t kShortest = 512, kMostAtATime = 64;
 constexpr std::size_t kFewestAtATime = 4, kBatches = 32;
 /// Members of a slab that are worth looking at one more seed, and seeds looked at at most.
 constexpr std::size_t kMembersPerSeed = 64, kMostSeeds = 8;
-/// Rows from a random one on that are looked at for an open one.
+/// Rows from a random one on that are looked at for an open one, for each that takes part.
 constexpr std::uint32_t kLook = 32;
 
 }  // namespace
 
 SlabSeeds::SlabSeeds(const SimplicialComplex& complex, const WidthSpace& space, bool may_choose)
-    : complex_(complex), space_(space), may_choose_(may_choose), hits_(complex.row_count, 0) {
+    : complex_(complex), space_(space), may_choose_(may_choose), hits_(complex.row_count) {
   for (std::uint32_t row = 0; row < complex.row_count; ++row)
     live_count_ += complex.state[row] == SimplexState::kLive ? 1u : 0u;
+  clear();
 }
 
-void SlabSeeds::clear() {
-  std::fill(hits_.begin(), hits_.end(), std::uint8_t{0});
+void SlabSeeds::clear(std::size_t stride) {
+  part_count_ = 0;
+  stride_ = stride;
+  for (std::size_t row = 0, live = 0; row < hits_.size(); ++row) {
+    const bool takes_part = complex_.state[row] == SimplexState::kLive && live++ % stride == 0;
+    hits_[row] = takes_part ? 0 : 255;
+    part_count_ += takes_part ? 1u : 0u;
+  }
   slab_count_ = member_count_ = 0;
   random_ = 0;
+}
+
+void SlabSeeds::take_part(std::uint32_t row, std::size_t slabs) {
+  hits_[row] = static_cast<std::uint8_t>(std::min<std::size_t>(slabs, 255));
+  ++part_count_;
 }
 
 void SlabSeeds::open(unsigned round) {
@@ -50,12 +62,13 @@ void SlabSeeds::count_open_at_vertices() {
 }
 
 void SlabSeeds::choose_among(const Stretch& stretch, std::size_t count, SeedChoice& seeds) {
+  const std::uint32_t look = kLook * static_cast<std::uint32_t>(stride_);
   for (std::size_t i = 1; i < count; ++i) {
     // Knuth's linear congruence; the high bits are the random ones.
     random_ = random_ * 6364136223846793005u + 1442695040888963407u;
     std::uint32_t row =
         stretch.next + static_cast<std::uint32_t>((random_ >> 33) % (stretch.end - stretch.next));
-    const std::uint32_t end = std::min(stretch.end, row + kLook);
+    const std::uint32_t end = std::min(stretch.end, row + look);
     while (row < end && !is_open(row)) ++row;
     if (row < end) seeds.push_back(row);
   }
@@ -64,10 +77,10 @@ void SlabSeeds::choose_among(const Stretch& stretch, std::size_t count, SeedChoi
 std::span<const SeedChoice> SlabSeeds::next_batch() {
   const std::size_t members = slab_count_ > 0 ? std::max<std::size_t>(1, member_count_ / slab_count_) : 1;
   const std::size_t seeds =
-      may_choose_ ? std::clamp<std::size_t>(members / kMembersPerSeed, 1, kMostSeeds) : 1;
+      may_choose_ ? std::clamp<std::size_t>(stride_ * members / kMembersPerSeed, 1, kMostSeeds) : 1;
   const std::size_t most = slab_count_ == 0
                                ? kFewestAtATime
-                               : std::clamp(live_count_ / members / kBatches, kFewestAtATime, kMostAtATime);
+                               : std::clamp(part_count_ / members / kBatches, kFewestAtATime, kMostAtATime);
   if (seeds > 1 && open_at_.empty()) count_open_at_vertices();
   batch_.resize(most);
   std::size_t used = 0;

@@ -23,8 +23,10 @@ class SlabSeeds {
   /// `may_choose`: false to take seeds as they come. All must outlive this.
   SlabSeeds(const SimplicialComplex& complex, const WidthSpace& space, bool may_choose);
 
-  /// No slab holds anything yet.
-  void clear();
+  /// No slab holds anything yet. One live simplex in `stride` takes part; hits() of all other rows is 255.
+  void clear(std::size_t stride = 1);
+  /// One more takes part, which so many slabs hold.
+  void take_part(std::uint32_t row, std::size_t slabs);
   /// Simplices in fewer than `round` slabs, 1 to 255, are open from now on.
   void open(unsigned round);
   /// Seeds of the next slabs, all open; none when no simplex is open. Valid until the next call. The choice
@@ -44,16 +46,15 @@ class SlabSeeds {
   struct Stretch {
     std::uint32_t next, end;  // rows; those before `next` are not open
   };
-  bool is_open(std::uint32_t row) const {
-    return hits_[row] < round_ && complex_.state[row] == SimplexState::kLive;
-  }
+  bool is_open(std::uint32_t row) const { return hits_[row] < round_; }
   void count_open_at_vertices();
   void choose_among(const Stretch& stretch, std::size_t count, SeedChoice& seeds);
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
   bool may_choose_;
-  std::size_t live_count_ = 0;
+  std::size_t live_count_ = 0, part_count_ = 0;  // all; those that take part
+  std::size_t stride_ = 1;                       // of those that take part
   unsigned round_ = 1;
   std::vector<std::uint8_t> hits_;
   std::vector<std::uint32_t> open_at_;  // per vertex: open simplices that have it; empty until it is needed

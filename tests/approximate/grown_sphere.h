@@ -1,0 +1,57 @@
+// A complex to cover.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "approx/width_space.h"
+#include "core/frame.h"
+#include "core/growth.h"
+#include "tests/hull/hull_support.h"
+#include "tools/rbox.h"
+
+namespace ndhull {
+
+/// The hull of points of a sphere, grown in a frame whose coordinates are taken for distances.
+struct GrownSphere {
+  GrownSphere(const char* rbox_words, std::uint32_t vertex_count) : set(rbox(rbox_words)) {
+    const Frame frame = fit_frame(set.view());
+    const std::size_t rank = frame.rank;
+    coordinates.resize(set.view().rows * rank + 8);
+    map_points(set.view(), frame, coordinates.data());
+    work.rank = rank;
+    work.point_count = set.view().rows;
+    work.points = coordinates.data();
+    start_growth(work, frame.simplex, FirstPoints());
+    grow(work);
+    std::vector<double> identity(rank * rank, 0.0);
+    for (std::size_t k = 0; k < rank; ++k) identity[k * rank + k] = 1.0;
+    std::vector<PointId> vertices;
+    for (std::uint32_t id = 0; id < work.point_count; ++id) vertices.push_back(PointId{id});
+    EXPECT_EQ(vertices.size(), vertex_count);
+    space.emplace(rank, identity, coordinates.data(), work.point_count, vertices, std::vector<PointId>{});
+  }
+  bool is_live(std::uint32_t row) const { return work.complex.state[row] == SimplexState::kLive; }
+  double product(const std::vector<double>& normal, std::uint32_t point) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < work.rank; ++k) sum += normal[k] * coordinates[point * work.rank + k];
+    return sum;
+  }
+  double height(const std::vector<double>& normal) const {
+    double highest = -HUGE_VAL;
+    for (std::uint32_t id = 0; id < work.point_count; ++id) highest = std::max(highest, product(normal, id));
+    return highest;
+  }
+
+  PointSet set;
+  std::vector<double> coordinates;
+  GrowthWork work;
+  std::optional<WidthSpace> space;
+};
+
+}  // namespace ndhull

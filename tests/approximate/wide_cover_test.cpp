@@ -1,0 +1,116 @@
+// Coverings by slabs that hold many simplices, seen from all simplices and all points by plain loops.
+#include "approx/wide_cover.h"
+
+#include <gtest/gtest.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "approx/slab_bits_kernel.h"
+#include "approx/slab_choice.h"
+#include "tests/approximate/grown_sphere.h"
+
+namespace ndhull {
+namespace {
+
+TEST(SlabBitsLaw, WhatAllRowsOfAGroupHave) {
+  std::mt19937_64 random(1);
+  for (const std::size_t slabs : {1u, 64u, 200u, 256u, 257u, 1000u}) {
+    const std::size_t words = words_for(slabs), rows = 50, count = 37;
+    EXPECT_GE(64 * words, slabs);
+    for (const std::size_t size : {1u, 2u, 5u, 9u}) {
+      std::vector<std::uint64_t> bits(rows * words), out(count * words);
+      for (std::uint64_t& word : bits) word = random() | random();
+      std::vector<std::uint16_t> ids(count * size);
+      for (std::uint16_t& id : ids) id = static_cast<std::uint16_t>(random() % rows);
+      intersect_rows(bits.data(), words, ids.data(), size, count, out.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t w = 0; w < words; ++w) {
+          std::uint64_t expected = ~std::uint64_t{0};
+          for (std::size_t k = 0; k < size; ++k) expected &= bits[ids[i * size + k] * words + w];
+          ASSERT_EQ(out[i * words + w], expected) << slabs << " slabs, " << size << " rows, group " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(SlabChoiceLaw, ChosenSlabsHoldAllAndEachIsNeeded) {
+  std::mt19937_64 random(2);
+  for (int round = 0; round < 50; ++round) {
+    const std::size_t rows = 10 + random() % 200, count = 1 + random() % 60;
+    std::vector<MemberRange> slabs;
+    std::vector<std::uint32_t> members;
+    std::vector<std::uint8_t> hits(rows, 0);
+    for (std::size_t slab = 0; slab < count; ++slab) {
+      const std::size_t begin = members.size(), size = random() % 20;  // some hold nothing
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        if (random() % rows >= size) continue;
+        members.push_back(row);
+        ++hits[row];
+      }
+      slabs.push_back({begin, members.size()});
+    }
+    const std::vector<std::uint32_t> chosen = choose_slabs(slabs, members, hits);
+    std::vector<unsigned> times(rows, 0);
+    for (const std::uint32_t slab : chosen)
+      for (std::size_t i = slabs[slab].begin; i < slabs[slab].end; ++i) ++times[members[i]];
+    for (std::size_t row = 0; row < rows; ++row) EXPECT_EQ(times[row] > 0, hits[row] > 0);
+    for (const std::uint32_t slab : chosen) {
+      bool is_needed = false;
+      for (std::size_t i = slabs[slab].begin; i < slabs[slab].end; ++i)
+        is_needed = is_needed || times[members[i]] == 1;
+      EXPECT_TRUE(is_needed);
+    }
+  }
+}
+
+/// How far the simplex reaches below the plane's height over all points.
+double depth_below(const GrownSphere& sphere, const FittedPlane& plane, std::uint32_t row) {
+  double low = HUGE_VAL;
+  for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
+    low = std::min(low, sphere.product(plane.normal, id.value));
+  return sphere.height(plane.normal) - low;
+}
+
+TEST(WideCoverLaw, EachSimplexIsInAFacetThatHoldsItMostlyTheOneWhereItIsHighest) {
+  const GrownSphere sphere("700 s D5 t3", 700);
+  const SimplicialComplex& complex = sphere.work.complex;
+  const SlabGrower grower(complex, *sphere.space, nullptr, true);
+  SlabSeeds seeds(complex, *sphere.space, true);
+  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
+  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
+  EXPECT_FALSE(wide.cover(0.01, CoverEffort{}).has_value()) << "few simplices in a slab";
+  for (const unsigned choices : {1u, 2u}) {
+    const double width = 0.5;
+    const std::optional<Covering> covering = wide.cover(width, CoverEffort{.choices = choices});
+    ASSERT_TRUE(covering.has_value());
+    std::vector<float> depth_of(complex.row_count, -1.0f);
+    wide.find_depths(*covering, depth_of);
+    std::size_t rows = 0, lower = 0;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      EXPECT_EQ(sphere.is_live(row), covering->facet_of[row] != kNone);
+      if (!sphere.is_live(row)) continue;
+      ASSERT_LT(covering->facet_of[row], covering->planes.size());
+      const double depth = depth_below(sphere, covering->planes[covering->facet_of[row]], row);
+      EXPECT_LE(depth, width);
+      EXPECT_GE(depth_of[row], depth) << "the depth of its facet";
+      EXPECT_LE(depth_of[row], width);
+      if (++rows % 16 != 0) continue;
+      double least = HUGE_VAL;
+      for (const FittedPlane& plane : covering->planes)
+        least = std::min(least, depth_below(sphere, plane, row));
+      lower += depth > least + width / 254.0 ? 1u : 0u;
+    }
+    // The slabs for what the sample did not know of come last, and take nothing from others.
+    EXPECT_LT(8 * lower, rows / 16);
+  }
+}
+
+}  // namespace
+}  // namespace ndhull
