@@ -31,8 +31,9 @@ constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// width all is best: what they do not see makes slabs too wide. A target number takes many more fits, and
 /// sees them in rounds.
 constexpr std::size_t kFewLeftOut = 1 << 17, kFewLeftOutForCount = 4096;
-/// Facets from which on neighbours are not tried again for what fits into one slab.
-constexpr std::size_t kFewFacets = 256;
+/// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
+/// few simplices each: there many fit, and large slabs leave hardly any.
+constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 40;
 /// Rounds of smaller slabs and more growth before the best so far is taken; of a target number, in which the
 /// fits see more of the points left out.
 constexpr int kRounds = 24, kCountRounds = 5;
@@ -253,7 +254,10 @@ Covering Approximation::cover_width(double width, const CoverEffort& effort) {
   }
   hull_.chosen.slab_width = width;
   // Slabs of degenerate data start from planes that rounding has drawn: two may share what one could hold.
-  if (covering.planes.size() <= kFewFacets || is_degenerate()) {
+  const std::size_t count = covering.planes.size();
+  const bool are_few =
+      count <= kFewFacets || (count <= kFewSmallFacets && cover.live_count() < kSmall * count);
+  if (are_few || is_degenerate()) {
     const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
     Covering joined = covering;
     merge_clusters(growth_.work().complex, *space_, any, joined);

@@ -2,14 +2,17 @@
 #include "approx/approximation.h"
 #include "approx/outside_points.h"
 
+#include <algorithm>
+
 namespace ndhull {
 namespace {
 
-/// Once the hull has many simplices, this part will do; once it has very many, nearly all of the width: that
-/// takes a quarter of the simplices less, and makes a quarter of the facets more.
-constexpr double kGrowthShareAtMost = 0.75, kGrowthShareOfHuge = 0.85;
-/// Simplices that are worth growing for an approximate hull. Merging takes about as long as growing them.
-constexpr std::uint64_t kManySimplices = 250'000, kVeryManySimplices = 4'000'000;
+/// Simplices that are worth growing for an approximate hull, of which merging takes as long again: so many
+/// once nothing is further outside than half of the width, so many once three quarters will do, and so many
+/// once nearly all of it has to. The last takes a quarter of the simplices less than three quarters do, and
+/// makes a quarter of the facets more.
+constexpr std::uint64_t kEnoughAtHalf = 180'000, kManySimplices = 250'000, kVeryManySimplices = 4'000'000;
+constexpr double kHalf = 0.5, kGrowthShareAtMost = 0.75, kGrowthShareOfHuge = 0.85;
 /// Of W alone: what is left out is no further above any simplex, where that is affordable. The outer planes
 /// of a hull come in steps, one vertex each: to be clearly below W costs 3 % more facets on 10^5 sphere
 /// points in 6-d with W 0.2, and 1 % of the width is gained.
@@ -70,12 +73,20 @@ bool Approximation::search_outside(double width) {
 
 /// Growth for slabs of this width.
 void Approximation::grow_for_width(double outside_width, double slab) {
-  const std::uint64_t enough = lengths_.outside_width > 0.0 ? 0 : kManySimplices;
-  const bool has_ended = growth_.grow_to(outside_width, enough, kGrowthShareOfHuge * slab);
-  const GrowthWork& work = growth_.work();
-  if (has_ended || growth_.is_limited() || work.complex.row_count - work.free_count > kVeryManySimplices)
+  if (lengths_.outside_width > 0.0) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
     return;
-  growth_.grow_to(outside_width, enough, kGrowthShareAtMost * slab);
+  }
+  const GrowthWork& work = growth_.work();
+  const auto simplices = [&] { return work.complex.row_count - work.free_count; };
+  const auto has_paused = [&](std::uint64_t enough, double height) {
+    return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
+  };
+  if (!has_paused(kEnoughAtHalf, kGrowthShareOfHuge * slab) || simplices() > kVeryManySimplices) return;
+  if (!has_paused(kEnoughAtHalf, kGrowthShareAtMost * slab)) return;
+  constexpr std::uint64_t kStep = kEnoughAtHalf / 16;
+  while (simplices() < kManySimplices && growth_.furthest_height() > kHalf * slab)
+    if (!has_paused(std::min<std::uint64_t>(kManySimplices, simplices() + kStep), HUGE_VAL)) return;
 }
 
 }  // namespace ndhull
