@@ -48,8 +48,8 @@ SlabCover::SlabCover(const SimplicialComplex& complex, const WidthSpace& space, 
       grower_(complex, space, rule, is_convex),
       seeds_(complex, space, rule == nullptr && grower_.meets_all_points()),
       scratch_([this] { return SlabScratch(space_); }) {
-  constexpr std::size_t kWorthSampling = 4096;  // simplices
-  if (rule == nullptr && grower_.meets_all_points() && live_count() >= kWorthSampling)
+  constexpr std::size_t kWorthSampling = 4096, kMostVertices = 4096;  // simplices
+  if (rule == nullptr && space.vertex_count() <= kMostVertices && live_count() >= kWorthSampling)
     wide_.emplace(complex_, space_, grower_, seeds_, [this]() -> SlabScratch& { return scratch_.local(); });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "core/dimension_switch.h"
 
@@ -248,11 +249,14 @@ void SlabGrower::find_vertices_of(VertexSlab& slab, double width, const CoverEff
 /// measured plane must be this one.
 void SlabGrower::find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
-  double height = 0.0;
-  if (space_.is_large()) space_.table().find(plane.normal.data(), scratch.fit.products, height);
   ++scratch.vertex_pass;
   scratch.vertices.clear();
-  space_.table().rows_above(scratch.fit.products, least, scratch.vertices);
+  if (space_.is_large()) {  // measuring has left no products
+    scratch.vertices.resize(space_.vertex_count());
+    std::iota(scratch.vertices.begin(), scratch.vertices.end(), 0u);
+  } else {
+    space_.table().rows_above(scratch.fit.products, least, scratch.vertices);
+  }
   std::erase_if(scratch.vertices, [&](std::uint32_t row) {
     if (row >= space_.vertex_count()) return true;
     scratch.dots[row] = dot_of(plane.normal.data(), row);

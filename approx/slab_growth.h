@@ -85,8 +85,10 @@ class SlabGrower {
   void grow(GrownSlab& slab, double width, const CoverEffort& effort, SlabScratch& scratch) const;
 
   /// Fills `slab` from its seed, with the vertices that are less than `width` below its plane. Of a seed that
-  /// is wider than `width` alone only its own. Precondition: meets_all_points().
-  /// Cost  some three products of a direction with all points.
+  /// is wider than `width` alone only its own.
+  /// Cost  some three products of a direction with all points, where the space is large with all vertices,
+  /// and
+  ///       searches.
   void find_vertices_of(VertexSlab& slab, double width, const CoverEffort& effort,
                         SlabScratch& scratch) const;
 
