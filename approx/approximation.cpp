@@ -176,48 +176,55 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   return result;
 }
 
-/// Of facets whose fit has seen the furthest point left out, which one that is.
-void Approximation::find_seen_offenders(const Covering& covering, std::span<const std::uint32_t> facets,
-                                        std::span<FurthestPoint> furthest) {
-  if (facets.empty() || !left_out_tree_) return;
-  std::vector<double> normals;
-  for (const std::uint32_t facet : facets)
-    normals.insert(normals.end(), covering.planes[facet].normal.begin(), covering.planes[facet].normal.end());
-  std::vector<FurthestPoint> found(facets.size());
-  for (FurthestPoint& point : found) point.dot = -HUGE_VAL;
+/// The points left out that are furthest above the planes of these simplices.
+std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::uint32_t> simplices) const {
+  const std::size_t rank = space_->rank();
+  std::vector<FurthestPoint> found(simplices.size());
+  if (simplices.empty() || !left_out_tree_) return found;
+  std::vector<double> normals(simplices.size() * rank);
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    space_->normal_of(growth_.work().complex.plane(SimplexId{simplices[i]}), normals.data() + i * rank);
+    found[i].dot = -HUGE_VAL;
+  }
   find_furthest(*left_out_tree_, normals, found);
-  for (std::size_t i = 0; i < facets.size(); ++i) furthest[facets[i]] = found[i];
+  return found;
 }
 
 /// Remembers, for each facet that is wider than `width`, the point that makes it so, and tells those that are
 /// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
 Offenders Approximation::add_offenders(const Covering& covering, const TrueWidths& widths, double width) {
   const std::size_t rank = space_->rank(), count = widths.widths.size();
-  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone), seen;
+  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone), alone;
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
     if (covering.facet_of[row] == kNone) continue;
     ++size_of[covering.facet_of[row]];
     row_of[covering.facet_of[row]] = row;
   }
   Offenders offenders;
-  std::vector<FurthestPoint> furthest_of = widths.furthest;
+  const auto remember = [&](const FurthestPoint& furthest) {
+    const bool is_left_out = furthest.row != FurthestPoint::kNoRow;
+    if (is_left_out) extra_.push_back(growth_.left_out()[furthest.row].point);
+    return is_left_out;
+  };
   for (std::uint32_t facet = 0; facet < count; ++facet) {
     if (widths.widths[facet] <= width) continue;
-    if (size_of[facet] > 1) offenders.widest_slab = std::max(offenders.widest_slab, widths.widths[facet]);
-    if (size_of[facet] == 1 && furthest_of[facet].row == FurthestPoint::kNoRow) seen.push_back(facet);
+    remember(widths.furthest[facet]);
+    if (size_of[facet] > 1) {
+      offenders.widest_slab = std::max(offenders.widest_slab, widths.widths[facet]);
+    } else {
+      alone.push_back(row_of[facet]);
+    }
   }
-  find_seen_offenders(covering, seen, furthest_of);
-  for (std::size_t facet = 0; facet < count; ++facet) {
-    const std::uint32_t furthest = furthest_of[facet].row;
-    if (widths.widths[facet] <= width || furthest == FurthestPoint::kNoRow) continue;
-    const PointId point = growth_.left_out()[furthest].point;
-    extra_.push_back(point);
-    if (size_of[facet] > 1) continue;
+  // Above the simplex' own plane: along one that was fitted in vain a point may be furthest that is below it.
+  const std::vector<FurthestPoint> furthest_of = furthest_above(alone);
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    if (!remember(furthest_of[i])) continue;
+    const PointId point = growth_.left_out()[furthest_of[i].row].point;
     const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
-    const auto plane = growth_.work().complex.plane(SimplexId{row_of[facet]});
+    const auto plane = growth_.work().complex.plane(SimplexId{alone[i]});
     double gauge = -1.0;
     for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
-    if (gauge > 0.0) offenders.above_simplices.push_back({point, SimplexId{row_of[facet]}, gauge});
+    if (gauge > 0.0) offenders.above_simplices.push_back({point, SimplexId{alone[i]}, gauge});
   }
   const auto by_point = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point < b.point; };
   const auto is_same = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point == b.point; };

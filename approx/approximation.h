@@ -64,8 +64,7 @@ class Approximation {
   /// are the answer.
   double thinnest() const { return 1e-15 * lengths_.largest_extent; }
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
-  void find_seen_offenders(const Covering& covering, std::span<const std::uint32_t> facets,
-                           std::span<FurthestPoint> furthest);
+  std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices) const;
   void grow_for_width(double outside_width, double slab);
   FacetClusters run_width();
   FacetClusters run_count();

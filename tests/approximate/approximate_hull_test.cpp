@@ -201,6 +201,16 @@ TEST(ApproximateHullLaw, WideFacetsOfSpikyHullsAreFew) {
   }
 }
 
+TEST(ApproximateHullRegression, AnUnfittableSimplexTakesInWhatIsAboveItsOwnPlane) {
+  PointSet set = family_points(PointFamily::kLens, 655, 6, 3);
+  for (double& coordinate : set.coordinates) coordinate = static_cast<double>(static_cast<float>(coordinate));
+  HullOptions options;
+  options.accuracy.width = {2.3, true};
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, HullStatus::kComplete);
+  EXPECT_LE(hull.max_facet_width, 0.023 * extent_of(set));
+}
+
 TEST(ApproximateHullLaw, MoreFacetsAreNarrower) {
   const PointSet set = family_points(PointFamily::kSphere, 500, 5, 7);
   double last = HUGE_VAL;
