@@ -22,8 +22,7 @@ struct FacetClusters {
 ///   [0, regular)            facet f is simplex f, and so are its neighbours
 ///   [regular, simplicial)   facet f is simplex f; some neighbour is a merged facet
 ///   [simplicial, facets)    merged facets: facet simplicial + m is the rows simplices[merged_begin[m]] up
-///   to,
-///                           not including, simplices[merged_begin[m + 1]], ascending
+///                           to, not including, simplices[merged_begin[m + 1]], ascending
 struct FacetLayout {
   std::size_t regular = 0;
   std::size_t simplicial = 0;

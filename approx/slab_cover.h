@@ -37,9 +37,8 @@ class SlabCover {
 
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
   /// wider becomes a facet all the same. The same for any number of threads.
-  /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes a
-  /// row for each
-  ///       thread, 8 for each place in a slab.
+  /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes
+  ///       a row for each thread, 8 for each place in a slab.
   Covering cover(double width, const CoverEffort& effort);
 
   std::size_t live_count() const { return seeds_.live_count(); }

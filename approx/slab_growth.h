@@ -86,9 +86,8 @@ class SlabGrower {
 
   /// Fills `slab` from its seed, with the vertices that are less than `width` below its plane. Of a seed that
   /// is wider than `width` alone only its own.
-  /// Cost  some three products of a direction with all points, where the space is large with all vertices,
-  /// and
-  ///       searches.
+  /// Cost  some three products of a direction with all points; with the vertices, and searches, where the
+  ///       space is large.
   void find_vertices_of(VertexSlab& slab, double width, const CoverEffort& effort,
                         SlabScratch& scratch) const;
 

@@ -14,7 +14,8 @@
 namespace ndhull {
 namespace {
 
-/// Walks over fewer simplices in a slab are as quick.
+/// Walks over fewer simplices in a slab are as quick; so they are where the square of what a slab holds is
+/// fewer times the number of simplices.
 constexpr double kFewMembers = 256.0, kWorthPasses = 6.0;
 /// Where slabs turn out to be more than this, for each time that a simplex is to be held, most are small, and
 /// walks are quicker.
@@ -277,7 +278,7 @@ std::vector<std::uint32_t> WideCover::assign(std::span<const std::uint32_t> chos
   const std::size_t vertices = space_.vertex_count();
   std::vector<std::uint8_t> depths(chosen.size() * vertices, kNotIn);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
-    VertexSlab& slab = slabs_[chosen[c]];
+    const VertexSlab& slab = slabs_[chosen[c]];
     for (std::size_t i = 0; i < slab.vertices.size(); ++i) {
       const double part = std::clamp(slab.depths[i] / width, 0.0, 1.0);
       depths[c * vertices + slab.vertices[i]] = static_cast<std::uint8_t>(std::ceil(part * kDeepest));

@@ -5,7 +5,7 @@
 // hold a simplex are the bits that all its vertices have: one pass over the simplices finds what all slabs
 // hold, where walks would meet each simplex once in every slab that holds it, with its neighbours. Slabs are
 // grown from and chosen by a sample of the simplices. Simplices that are in none of the chosen ones join the
-// sample, until there are no such.
+// sample, and the choice is made again; what is still outside then gets slabs of its own.
 #pragma once
 
 #include <cstddef>
@@ -30,14 +30,16 @@ class WideCover {
   WideCover(const SimplicialComplex& complex, const WidthSpace& space, const SlabGrower& grower,
             SlabSeeds& seeds, std::function<SlabScratch&()> scratch);
 
-  /// A facet for each simplex, that in which it lies highest to a 254th of the width; facets may be empty,
-  /// and the planes' lows are not known yet. Nothing where slabs are too small for that to be quick. Cost
-  /// products of a direction with all points for each slab; some passes over the simplices. A byte for
-  ///       each vertex and facet.
+  /// A facet for each simplex, that in which it lies highest to a 254th of the width. Facets may be empty,
+  /// and the planes' lows are not known yet. Nothing where slabs are too small for that to be quick.
+  ///
+  /// Cost  some three products of a direction with all points for each slab; some passes over the simplices.
+  ///       2 rank bytes for each of these, a byte for each vertex and facet.
   std::optional<Covering> cover(double width, const CoverEffort& effort);
 
   /// Of each simplex the depth of its facet, rounded up: that of the lowest vertex of all its simplices.
-  /// Shapes depth_of: one a row.
+  ///
+  /// Shapes  depth_of: one a row.
   void find_depths(const Covering& covering, std::span<float> depth_of) const;
 
  private:
