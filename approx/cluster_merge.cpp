@@ -117,13 +117,7 @@ class Merging {
 
   void list_by_facets() {
     const std::size_t count = clusters_.size();
-    std::vector<std::uint32_t> begin(count + 1, 0), rows(complex_.row_count);
-    for (const std::uint32_t id : covering_.facet_of)
-      if (id != kNone) ++begin[id + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
-      if (covering_.facet_of[row] != kNone) rows[at[covering_.facet_of[row]]++] = row;
+    const FacetMembers members_of(covering_);
     std::vector<std::uint32_t> vertex_seen(space_.table().count(), kNone), facet_seen(count, kNone);
     const auto add = [](std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& seen,
                         std::uint32_t entry, std::uint32_t id) {
@@ -131,12 +125,13 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
-    constexpr std::uint32_t kAhead = 8;  // rows whose way from memory has begun
+    constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
     for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
+      const std::span<const std::uint32_t> rows = members_of.of(id);
       facet_seen[id] = id;
-      for (std::uint32_t i = begin[id]; i < begin[id + 1]; ++i) {
-        const SimplexId later{rows[std::min(i + kAhead, begin[count] - 1)]};
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SimplexId later{rows[std::min(i + kAhead, rows.size() - 1)]};
         __builtin_prefetch(complex_.vertices(later).data());
         __builtin_prefetch(&complex_.neighbours(later).back());
         for (const PointId point : complex_.vertices(SimplexId{rows[i]}))

@@ -44,6 +44,16 @@ double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::ui
 
 }  // namespace
 
+FacetMembers::FacetMembers(const Covering& covering) : begin_(covering.planes.size() + 1, 0) {
+  for (const std::uint32_t facet : covering.facet_of)
+    if (facet != kNone) ++begin_[facet + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
+  rows_.resize(begin_.back());
+  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) rows_[at[covering.facet_of[row]]++] = row;
+}
+
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {
   FacetClusters clusters;
   if (covering.planes.empty()) return clusters;

@@ -21,6 +21,18 @@ struct Covering {
   double widest = 0.0;  ///< [distance] over the points of the WidthSpace, of the measured ones
 };
 
+/// The simplices of each facet, ascending. Cost  O(rows).
+class FacetMembers {
+ public:
+  explicit FacetMembers(const Covering& covering);
+  std::span<const std::uint32_t> of(std::size_t facet) const {
+    return {rows_.data() + begin_[facet], begin_[facet + 1] - begin_[facet]};
+  }
+
+ private:
+  std::vector<std::uint32_t> begin_, rows_;
+};
+
 /// The facets that are no mere simplex with its own plane, with their planes in the frame.
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space);
 

@@ -16,25 +16,6 @@ namespace {
 
 bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
 
-/// The simplices of each facet, ascending.
-struct FacetMembers {
-  std::vector<std::uint32_t> begin, rows;
-
-  explicit FacetMembers(const Covering& covering) : begin(covering.planes.size() + 1, 0) {
-    for (const std::uint32_t facet : covering.facet_of)
-      if (facet != kNone) ++begin[facet + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
-    rows.resize(begin.back());
-    for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
-      if (covering.facet_of[row] != kNone) rows[at[covering.facet_of[row]]++] = row;
-  }
-
-  std::span<const std::uint32_t> of(std::size_t facet) const {
-    return {rows.data() + begin[facet], begin[facet + 1] - begin[facet]};
-  }
-};
-
 /// Facets that one thread looks at before it asks for more.
 constexpr std::size_t kFacetsAtATime = 16;
 

@@ -65,7 +65,7 @@ class SlabCover {
   SlabGrower grower_;
   SlabSeeds seeds_;
   std::vector<GrownSlab> batch_;
-  std::optional<WideCover> wide_;  // of enough simplices with few points
+  std::optional<WideCover> wide_;  // of enough simplices with few vertices
   tbb::enumerable_thread_specific<SlabScratch> scratch_;
   std::vector<FittedPlane> planes_;     // of all slabs
   std::vector<MemberRange> slabs_;      // of members_

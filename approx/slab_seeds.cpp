@@ -12,7 +12,7 @@ constexpr std::size_t kShortest = 512, kMostAtATime = 64;
 constexpr std::size_t kFewestAtATime = 4, kBatches = 32;
 /// Members of a slab that are worth looking at one more seed, and seeds looked at at most.
 constexpr std::size_t kMembersPerSeed = 64, kMostSeeds = 8;
-/// Rows from a random one on that are looked at for an open one, for each that takes part.
+/// Rows from a random one on that are looked at for an open one: so many that take part.
 constexpr std::uint32_t kLook = 32;
 
 }  // namespace

@@ -118,7 +118,6 @@ void WideCover::start(std::size_t stride) {
   const std::span<const std::uint8_t> hits = seeds_.hits();
   for (std::uint32_t row = 0; row < complex_.row_count; ++row)
     if (hits[row] == 0) sample_.push_back(row);
-  open_ = sample_;
 }
 
 void WideCover::grow_until_held(unsigned times, std::size_t most, double width, const CoverEffort& effort) {
