@@ -171,6 +171,7 @@ class Grower {
   void make_cone(std::uint32_t apex, double shift);
   void make_ridges(std::uint32_t apex, double shift, std::size_t begin, std::size_t end);
   void touch_new_rows();
+  void clear_new_rows();
   void join_siblings(std::size_t index);
   std::size_t first_sibling(std::size_t index) const;
   void match_cone();
@@ -222,6 +223,7 @@ class Grower {
   std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;
   std::size_t touched_rows_ = 0;                         // rows that have memory, as far as is known
+  std::size_t cleared_rows_ = 0;                         // rows whose heads and marks are 0
   std::size_t shared_visible_ = 0, shared_horizon_ = 0;  // found when all shares last had the same marks
   // Per row: hidden_mark_ when this search has met it and it is hidden, one more when it is visible, less
   // when it was not met.
