@@ -20,23 +20,15 @@ struct Reach {
   }
 };
 
-/// Growth aims at points this part of the facet width outside: what is left of the width then is free for
-/// merging. On spheres a quarter needs 1.15 times the facets that none would, a half 1.6 times.
-constexpr double kGrowthShare = 0.25;
-/// Simplices that are worth growing for a target number. Merging takes about as long as growing them.
-constexpr std::uint64_t kManySimplices = 250'000;
-/// Simplices for each facet of a target number, at first and at most.
-constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// As many points left out are all seen by the fits; of more, the furthest over each simplex. For a target
 /// width all is best: what they do not see makes slabs too wide. A target number takes many more fits, and
 /// sees them in rounds.
-constexpr std::size_t kFewLeftOut = 1 << 17, kFewLeftOutForCount = 4096;
+constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
 /// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
 /// few simplices each: there many fit, and large slabs leave hardly any.
 constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 40;
-/// Rounds of smaller slabs and more growth before the best so far is taken; of a target number, in which the
-/// fits see more of the points left out.
-constexpr int kRounds = 24, kCountRounds = 5;
+/// Rounds of smaller slabs and more growth before the best so far is taken.
+constexpr int kRounds = 24;
 
 }  // namespace
 
@@ -106,7 +98,7 @@ void Approximation::make_space(bool with_left_out) {
     }
   }
   std::vector<Reach> furthest;
-  const std::size_t few = accuracy_.facets > 0 ? kFewLeftOutForCount : kFewLeftOut;
+  const std::size_t few = with_left_out ? kFewLeftOut : kFewOfCoarse;
   if (with_left_out && !growth_.left_out().empty()) {
     const bool are_few = growth_.left_out().size() <= few;
     std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
@@ -247,6 +239,20 @@ bool Approximation::keeps_hull(const Covering& covering) const {
   return find_open_direction(normals, space_->rank()).bounded;
 }
 
+/// Is it worth its time to join neighbours that fit into one slab? Of few facets, and of degenerate data:
+/// there slabs start from planes that rounding has drawn, and two may share what one could hold.
+bool Approximation::is_worth_joining(std::size_t facets, std::size_t simplices) const {
+  return facets <= kFewFacets || (facets <= kFewSmallFacets && simplices < kSmall * facets) ||
+         is_degenerate();
+}
+
+void Approximation::join_neighbours(Covering& covering, double width) const {
+  const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
+  Covering joined = covering;
+  merge_clusters(growth_.work().complex, *space_, any, joined);
+  if (keeps_hull(joined)) covering = std::move(joined);
+}
+
 /// No planes: not even slabs as thin as rounding leave a hull.
 Covering Approximation::cover_width(double width, const CoverEffort& effort) {
   SlabCover cover(growth_.work().complex, *space_, is_convex());
@@ -260,16 +266,7 @@ Covering Approximation::cover_width(double width, const CoverEffort& effort) {
     if (covering.planes.size() == cover.live_count()) break;
   }
   hull_.chosen.slab_width = width;
-  // Slabs of degenerate data start from planes that rounding has drawn: two may share what one could hold.
-  const std::size_t count = covering.planes.size();
-  const bool are_few =
-      count <= kFewFacets || (count <= kFewSmallFacets && cover.live_count() < kSmall * count);
-  if (are_few || is_degenerate()) {
-    const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
-    Covering joined = covering;
-    merge_clusters(growth_.work().complex, *space_, any, joined);
-    if (keeps_hull(joined)) covering = std::move(joined);
-  }
+  if (is_worth_joining(covering.planes.size(), cover.live_count())) join_neighbours(covering, width);
   return covering;
 }
 
@@ -277,7 +274,7 @@ FacetClusters Approximation::run_width() {
   const CoverEffort effort{.final_fit_steps = 0};
   const double target = lengths_.width * (1.0 - 1e-9);
   double outside_width =
-      lengths_.outside_width > 0.0 ? lengths_.outside_width : kGrowthShare * lengths_.width;
+      lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
   double slab = target;
   Covering covering;
   for (int round = 0;; ++round) {
@@ -298,101 +295,6 @@ FacetClusters Approximation::run_width() {
   }
   hull_.chosen.outside_width = outside_width;
   return clusters_of(covering, *space_);
-}
-
-/// The least width found that needs at most `count` facets. The number falls like a power of the width, about
-/// the (rank-1)/2-th where the hull is round: each guess uses the two nearest.
-Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width) {
-  SlabCover cover(growth_.work().complex, *space_, is_convex());
-  const double power = 2.0 / (static_cast<double>(space_->rank()) - 1.0);
-  const double wanted = std::log(static_cast<double>(count));
-  struct Trial {
-    double log_width, log_count;
-  };
-  std::optional<Trial> few, many;  // nearest with at most, with more than the count
-  Covering best;
-  double best_width = 0.0, log_width = std::log(start_width);
-  for (int trial = 0; trial < 16 && (trial == 0 || !growth_.is_late()); ++trial) {
-    Covering covering = cover.cover(std::exp(log_width), effort);
-    if (covering.planes.size() <= count) close_open_directions(growth_.work().complex, *space_, covering);
-    const bool is_hull = keeps_hull(covering);
-    const double log_count = std::log(static_cast<double>(covering.planes.size()));
-    if (covering.planes.size() <= count) {
-      if (is_hull && (best.planes.empty() || covering.widest < best.widest)) {
-        best = std::move(covering);
-        best_width = std::exp(log_width);
-      }
-      if (!few || log_width < few->log_width) few = Trial{log_width, log_count};
-    } else if (!many || log_width > many->log_width) {
-      many = Trial{log_width, log_count};
-    }
-    if (!best.planes.empty() && few && wanted - few->log_count < 0.025 && is_hull) break;
-    if (few && many) {
-      if (few->log_width - many->log_width < 0.004) break;
-      const double part =
-          (many->log_count - wanted + 0.012) / std::max(1e-9, many->log_count - few->log_count);
-      log_width = many->log_width + std::clamp(part, 0.08, 0.92) * (few->log_width - many->log_width);
-    } else if (few) {
-      log_width = few->log_width - std::max(0.05, 1.2 * power * (wanted - few->log_count));
-    } else {
-      log_width = many->log_width + std::max(0.05, 1.2 * power * (many->log_count - wanted));
-    }
-  }
-  hull_.chosen.slab_width = best_width;
-  return best;
-}
-
-/// Over all points; +inf of none.
-double Approximation::widest_of(const Covering& covering) {
-  return covering.planes.empty() ? HUGE_VAL : true_widths(covering).widest();
-}
-
-FacetClusters Approximation::run_count() {
-  const std::uint64_t count = accuracy_.facets;
-  const CoverEffort quick{.final_fit_steps = 0};
-  const std::uint64_t most = std::max(kManySimplices, kSimplicesPerFacet * count);
-  double outside_width = lengths_.outside_width;
-  double width = 0.1 * lengths_.largest_extent;
-  if (outside_width == 0.0 &&
-      !growth_.grow_to(0.0, std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count), HUGE_VAL) &&
-      !growth_.is_limited()) {
-    make_space(false);
-    Covering covering = cover_count(count, quick, width);
-    if (!covering.planes.empty()) width = hull_.chosen.slab_width;
-    outside_width = kGrowthShare * width;
-    if (growth_.furthest_height() > outside_width && !growth_.is_late())
-      growth_.grow_to(outside_width, most, HUGE_VAL);
-  } else if (outside_width > 0.0 && lengths_.outside_width > 0.0) {
-    growth_.grow_to(outside_width, 0, HUGE_VAL);
-  }
-  locate_left_out(outside_width);
-  make_space(true);
-  Covering best = cover_count(count, quick, width);
-  double best_width = widest_of(best);
-  // Points left out that the fits did not see come to them, until the widths that they saw are the true ones.
-  const auto is_true = [&](const Covering& covering, double widest) {
-    return widest <= covering.widest * 1.002;
-  };
-  CoverEffort effort = quick;
-  for (int round = 0; round < kCountRounds && !best.planes.empty() && !growth_.is_late(); ++round) {
-    add_offenders(best, true_widths(best), best.widest * (1.0 + 1e-12));
-    make_space(true);
-    // The better search needs fewer facets: a smaller width will do.
-    const bool is_better_search = is_true(best, best_width) || 2 * round >= kCountRounds;
-    if (is_better_search) effort = CoverEffort{.choices = 2, .refits = 2};
-    Covering next = cover_count(count, effort, (is_better_search ? 0.97 : 1.0) * hull_.chosen.slab_width);
-    const double widest = widest_of(next);
-    const bool is_end = is_better_search && (next.planes.empty() || is_true(next, widest));
-    if (widest < best_width) {
-      best_width = widest;
-      best = std::move(next);
-    }
-    if (is_end) break;
-  }
-  if (best.planes.empty())
-    best = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
-  hull_.chosen.outside_width = outside_width;
-  return clusters_of(best, *space_);
 }
 
 }  // namespace ndhull

@@ -211,6 +211,23 @@ TEST(ApproximateHullRegression, AnUnfittableSimplexTakesInWhatIsAboveItsOwnPlane
   EXPECT_LE(hull.max_facet_width, 0.023 * extent_of(set));
 }
 
+// Where a hull is too large to be grown to the end, points far above simplices that are facets alone make
+// these wide, however narrow the slabs: a number of facets takes such points in as a width does.
+TEST(ApproximateHullRegression, ANumberOfFacetsIsAsNarrowAsTheWidthThatNeedsSoMany) {
+  const auto largest_ratio = [](const PointSet& set, double percent) {
+    HullOptions options;
+    options.accuracy.width = {percent, true};
+    const Hull by_width = hull_of(set, options);
+    options.accuracy.width = {};
+    options.accuracy.facets = by_width.facet_count();
+    const Hull by_count = hull_of(set, options);
+    EXPECT_LE(by_count.facet_count(), by_width.facet_count());
+    return by_count.max_facet_width / by_width.max_facet_width;
+  };
+  EXPECT_LT(largest_ratio(family_points(PointFamily::kCube, 1000, 9, 5), 35.0), 1.0);
+  EXPECT_LT(largest_ratio(family_points(PointFamily::kClusters, 3000, 9, 5), 30.0), 1.2);
+}
+
 TEST(ApproximateHullLaw, MoreFacetsAreNarrower) {
   const PointSet set = family_points(PointFamily::kSphere, 500, 5, 7);
   double last = HUGE_VAL;
