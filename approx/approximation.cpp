@@ -20,9 +20,9 @@ struct Reach {
   }
 };
 
-/// As many points left out are all seen by the fits; of more, the furthest over each simplex. For a target
-/// width all is best: what they do not see makes slabs too wide. A target number takes many more fits, and
-/// sees them in rounds.
+/// As many points left out are all seen by the fits; of more, the furthest over each simplex. What they do
+/// not see makes slabs too wide. Of a coarse hull, which only says about how wide facets will be, the
+/// furthest.
 constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
 /// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
 /// few simplices each: there many fit, and large slabs leave hardly any.

@@ -174,10 +174,11 @@ FacetClusters Approximation::run_count() {
     if (grow_for_count(count, outside_width, slab)) search.narrowest = Covering{};  // rows are others now
   }
   hull_.chosen.outside_width = outside_width;
-  if (!search.has_any())
-    search.narrowest = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
-  else
+  if (search.has_any()) {
     hull_.chosen.slab_width = search.slab;
+  } else {
+    search.narrowest = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
+  }
   return clusters_of(search.narrowest, *space_);
 }
 
