@@ -82,6 +82,8 @@ class Approximation {
   /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets
   /// are the answer.
   double thinnest() const { return 1e-15 * lengths_.largest_extent; }
+  /// Widths up to this are rounding's: a number of facets that is as narrow has found the flat faces.
+  double flat() const { return 1e-13 * lengths_.largest_extent; }
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices) const;
   void grow_for_width(double outside_width, double slab);

@@ -15,6 +15,7 @@
 #include "approx/certified_growth.h"
 #include "approx/coplanar_merge.h"
 #include "approx/described_hull.h"
+#include "approx/exact_facets.h"
 #include "approx/facet_layout.h"
 #include "approx/facet_table.h"
 #include "approx/frame_planes.h"
@@ -28,7 +29,6 @@
 #include "core/frame.h"
 #include "core/growth.h"
 #include "core/membership.h"
-#include "core/plane_kernels.h"
 #include "core/stopwatch.h"
 
 namespace ndhull {
@@ -124,24 +124,21 @@ class HullBuilder {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex().row_count);
     const std::span<double> determinants(determinants_.data(), complex().row_count);
-    std::vector<std::uint8_t> is_shifted;
-    for (const std::uint32_t id : growth_->work().shifted_points) {
-      is_shifted.resize(points_.rows);
-      is_shifted[id] = 1;
-    }
+    const std::vector<std::uint8_t> is_shifted = find_shifted(growth_->work());
     if (frame_.rank >= 2) {
-      solve_simplices(complex(), growth_->coordinates(), is_shifted, determinants);
+      solve_outwards(complex(), growth_->coordinates(), is_shifted, determinants);
     } else {
       for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / complex().planes[row]);
     }
-    orient(determinants);
     detail("volumes", start);
     const Clock::time_point merge_start = Clock::now();
     hull_.is_approximate = clusters_.count > 0;
-    // Without a shifted point every decision was clearer than the shift: all ridges are convex.
-    if (!hull_.is_approximate && !is_shifted.empty() && !options_.triangulate) {
+    // Without a shifted point every decision was clearer than the shift: all ridges are convex. Who asks for
+    // a number of facets gets no simplices instead.
+    const bool may_merge = !options_.triangulate || options_.accuracy.facets > 0;
+    if (!hull_.is_approximate && !is_shifted.empty() && may_merge) {
       clusters_ = merge_coplanar(complex(), growth_->coordinates(), is_shifted, determinants,
-                                 4.0 * growth_->work().options.shift);
+                                 kShiftsInPlane * growth_->work().options.shift);
     }
     if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);
     hull_.layout_ = lay_out(complex(), determinants, clusters_, gradient_factor(frame_, LengthUnit()));
@@ -156,14 +153,6 @@ class HullBuilder {
     if (!few) return;
     clusters_ = std::move(*few);
     hull_.is_approximate = true;
-  }
-
-  /// The rows' common orientation may be either; volumes are positive.
-  static void orient(std::span<double> determinants) {
-    double sum = 0.0;
-    for (const double determinant : determinants) sum += determinant;
-    if (sum >= 0.0) return;
-    for (double& determinant : determinants) determinant = -determinant;
   }
 
   std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "approx/approximation.h"
+#include "approx/exact_facets.h"
 
 namespace ndhull {
 namespace {
@@ -75,7 +76,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
         best = std::move(covering);
         best_width = width;
       }
-      if (is_hull && wanted - few->log_count < slack) break;
+      if (is_hull && (width <= flat() || wanted - few->log_count < slack)) break;
     }
     if (few && many) {
       const double between = few->log_width - many->log_width;
@@ -88,6 +89,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
       log_width = many->log_width + std::clamp(part, 0.08, 0.92) * between;
     } else if (few) {
       log_width -= std::max(least_step, 1.2 * (wanted - few->log_count) / search.power);
+      if (few->log_width > std::log(flat())) log_width = std::max(log_width, std::log(flat()));
     } else {
       log_width += std::max(least_step, 1.2 * (many->log_count - wanted) / search.power);
     }
@@ -118,7 +120,8 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, do
 bool Approximation::is_coarse_for(double slab, double outside_width) {
   const GrowthWork& work = growth_.work();
   const double height = growth_.furthest_height();
-  if (height == 0.0) return kShareForGrowth * slab < kCoarse * outside_width;  // it had ended
+  if (height == 0.0)  // it had ended
+    return outside_width > flat() && kShareForGrowth * slab < kCoarse * outside_width;
   return height > kTooNearSlab * slab && work.complex.row_count - work.free_count < kMostWorthGrowing;
 }
 
@@ -143,20 +146,28 @@ FacetClusters Approximation::run_count() {
   double outside_width = is_given ? lengths_.outside_width : kShareForGrowth * width;
   if (width == 0.0) width = std::max(0.1 * lengths_.largest_extent, 2.0 * outside_width);
   grow_for_count(count, outside_width, width);
+  if (outside_width == 0.0 && growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
+      count_exact_facets(growth_.work(), growth_.coordinates()) <= count)
+    return FacetClusters{};       // the exact hull it is
   search.narrowest = Covering{};  // of the coarse hull
-  bool is_better_search = false;
+  bool is_better_search = false, is_from_wide = false;
   for (int round = 1; !search.has_any() || !growth_.is_late(); ++round) {
     make_space(true);
     const Covering covering = cover_count(count, effort, width, is_better_search ? kLittle : kSome, search);
-    if (covering.planes.empty()) break;
+    if (covering.planes.empty()) {
+      if (search.has_any() || is_from_wide) break;
+      width = std::max(width, 0.1 * lengths_.largest_extent);
+      is_from_wide = true;
+      continue;
+    }
     const double slab = hull_.chosen.slab_width;
     const TrueWidths widths = true_widths(covering);
     const std::size_t known = extra_.size();
-    const Offenders offenders = add_offenders(covering, widths, slab);
+    const Offenders offenders = add_offenders(covering, widths, std::max(slab, flat()));
     const bool is_enough = search.covered > kMostCovered || round == kMostRounds;
     const bool may_grow = !growth_.is_limited() && !growth_.is_late() && !is_enough;
     const bool is_coarse = may_grow && !is_given && is_coarse_for(slab, outside_width);
-    const bool is_settled = widths.widest() <= 1.002 * slab || extra_.size() == known;
+    const bool is_settled = widths.widest() <= std::max(1.002 * slab, flat()) || extra_.size() == known;
     width = slab;
     if (is_coarse) {
       if (growth_.furthest_height() == 0.0) {
@@ -164,7 +175,7 @@ FacetClusters Approximation::run_count() {
         growth_.repair();
       }
     } else if (is_enough || is_settled) {
-      if (is_enough || is_better_search) break;
+      if (is_enough || is_better_search || slab <= flat()) break;
       is_better_search = true;  // it needs fewer facets: a smaller width will do
       effort = CoverEffort{.choices = 2, .refits = 2};
       width *= 0.97;

@@ -278,7 +278,8 @@ class TableMaker {
       const double cone = determinant * volume_per_determinant_;
       part.volume += cone;
       if (facet >= layout_.simplicial) continue;
-      table_.areas[facet] = static_cast<double>(frame_.rank) * cone / height;
+      // A simplex without volume may have no height either.
+      table_.areas[facet] = cone > 0.0 ? static_cast<double>(frame_.rank) * cone / height : 0.0;
       part.area += table_.areas[facet];
     }
   }

@@ -228,6 +228,37 @@ TEST(ApproximateHullRegression, ANumberOfFacetsIsAsNarrowAsTheWidthThatNeedsSoMa
   EXPECT_LT(largest_ratio(family_points(PointFamily::kClusters, 3000, 9, 5), 30.0), 1.2);
 }
 
+/// More facets than the hull has are flat, and no more than it has.
+TEST(ApproximateHullLaw, AsManyFacetsAsTheExactHullAreAsNarrow) {
+  const auto check = [](const PointSet& set, bool unit_cube) {
+    HullOptions options;
+    options.unit_cube = unit_cube;
+    const Hull exact = hull_of(set, options);
+    if (exact.rank < 2) return;
+    const double rounding = 1e-12 * (unit_cube ? 1.0 : extent_of(set));
+    const std::uint64_t all = exact.facet_count(), least = exact.rank + 1;
+    for (const std::uint64_t count : {least, std::max(least, all - 1), all, all + 1, 2 * all}) {
+      options.accuracy.facets = count;
+      const Hull hull = hull_of(set, options);
+      SCOPED_TRACE(std::to_string(count) + " facets of " + std::to_string(all));
+      EXPECT_LE(hull.facet_count(), count);
+      if (count >= all) {
+        EXPECT_LE(hull.max_facet_width, exact.max_facet_width + rounding);
+      }
+      expect_approximate_laws(hull, set.view());
+    }
+  };
+  for (std::size_t d = 2; d <= 5; ++d) {
+    for (const DegenerateCase& input : degenerate_cases(50, d, 3)) {
+      SCOPED_TRACE(input.description + " in " + std::to_string(d) + "-d");
+      for (const bool unit_cube : {false, true}) check(input.points, unit_cube);
+    }
+  }
+  check(family_points(PointFamily::kCone, 27, 2, 7056), true);
+  check(family_points(PointFamily::kCubeSurface, 80, 3, 4134), true);
+  check(family_points(PointFamily::kCubeSurface, 99, 6, 5966), false);
+}
+
 TEST(ApproximateHullLaw, MoreFacetsAreNarrower) {
   const PointSet set = family_points(PointFamily::kSphere, 500, 5, 7);
   double last = HUGE_VAL;
