@@ -38,7 +38,7 @@ Covering SlabCover::cover(double width, const CoverEffort& effort) {
   if (wide_) {
     if (std::optional<Covering> covering = wide_->cover(width, effort)) {
       depth_of_.assign(complex_.row_count, 0.0f);
-      gather_strays(*covering, width);
+      if (wide_->has_strays()) gather_strays(*covering, width);
       wide_->find_depths(*covering, depth_of_);
       measure_facets(*covering, width, effort);
       return std::move(*covering);

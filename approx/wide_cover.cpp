@@ -14,17 +14,25 @@
 namespace ndhull {
 namespace {
 
-/// Walks over fewer simplices in a slab are as quick; so they are where the square of what a slab holds is
-/// fewer times the number of simplices.
-constexpr double kFewMembers = 256.0, kWorthPasses = 6.0;
-/// Where slabs turn out to be more than this, for each time that a simplex is to be held, most are small, and
-/// walks are quicker.
-std::size_t most_slabs(std::size_t simplices) { return 80 + std::min<std::size_t>(1024, simplices / 200); }
-/// Of each slab some so many simplices are in the sample.
-constexpr double kSampledMembers = 240.0;
+/// Walks over fewer simplices in a slab are as quick; slabs are large where the square of what one holds is
+/// so many times the number of simplices.
+constexpr double kFewMembers = 200.0, kWorthPasses = 6.0;
+/// Where slabs turn out to be more than this, most are small, and walks are quicker: large slabs, for each
+/// time that a simplex is to be held, and others.
+std::size_t most_large_slabs(std::size_t simplices) {
+  return 80 + std::min<std::size_t>(1024, simplices / 200);
+}
+std::size_t most_slabs(std::size_t simplices) { return simplices / 50; }
+/// Depths of vertices in slabs that are worth a table. [bytes]
+constexpr std::size_t kMostDepths = std::size_t{1} << 26;
+/// Of each large slab some so many simplices are in the sample; of others so many at least, and of all slabs
+/// together about so many: the sample is looked at once for each 64 slabs.
+constexpr double kSampledMembers = 240.0, kFewestSampled = 12.0, kSample = 40'000.0;
 /// One simplex in so many says how large slabs are.
 constexpr std::size_t kStrideAtFirst = 16;
 constexpr std::size_t kRowsAtATime = 1024;
+/// So few facets may be joined afterwards, of which more are narrow enough where simplices lie high in them.
+constexpr std::size_t kFewToJoin = 256;
 /// Depths as bytes: the width is kDeepest of them.
 constexpr std::uint8_t kDeepest = 254, kNotIn = 255;
 
@@ -47,15 +55,19 @@ WideCover::WideCover(const SimplicialComplex& complex, const WidthSpace& space, 
 
 std::optional<Covering> WideCover::cover(double width, const CoverEffort& effort) {
   const double members = members_at_first(width, effort);
-  // Passes over the sample for each 64 slabs take time that falls with the square of what a slab holds.
-  if (members < kFewMembers || members * members < kWorthPasses * static_cast<double>(complex_.row_count))
-    return std::nullopt;
+  const std::size_t simplices = seeds_.live_count();
+  const auto live = static_cast<double>(simplices);
+  const bool are_large = members * members >= kWorthPasses * live, looks_harder = effort.choices > 1;
+  // Of large slabs it costs little to have some to choose from; of others walks find more in the same time.
+  if (members < kFewMembers || (looks_harder && !are_large)) return std::nullopt;
+  const unsigned times = looks_harder ? 5 : are_large ? 2 : 1;
+  const int rechoices = looks_harder ? 4 : 1;
+  const std::size_t most = times * (are_large ? most_large_slabs(simplices) : most_slabs(simplices));
+  if (most_slabs(simplices) * space_.vertex_count() > kMostDepths && !are_large) return std::nullopt;
   if (vertices_.empty()) list_vertices();
-  start(std::clamp<std::size_t>(static_cast<std::size_t>(members / kSampledMembers), 1, 64));
-  // Slabs to choose from cost little here.
-  const unsigned times = effort.choices > 1 ? 5 : 2;
-  const int rechoices = effort.choices > 1 ? 4 : 1;
-  const std::size_t most = times * most_slabs(seeds_.live_count());
+  const double stride =
+      are_large ? members / kSampledMembers : std::min(members / kFewestSampled, live / kSample);
+  start(std::clamp<std::size_t>(static_cast<std::size_t>(stride), 1, 64));
   std::vector<std::uint32_t> chosen;
   for (int round = 0;; ++round) {
     grow_until_held(times, most, width, effort);
@@ -66,13 +78,17 @@ std::optional<Covering> WideCover::cover(double width, const CoverEffort& effort
     if (outside.empty()) break;
     take_part(outside);
   }
+  by_height_ = looks_harder || chosen.size() <= kFewToJoin;
   Covering covering;
   covering.facet_of.assign(complex_.row_count, kNone);
-  const std::vector<std::uint32_t> outside = assign(chosen, width, covering);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t row = 0; row < complex_.row_count; ++row)
+    if (complex_.state[row] == SimplexState::kLive) rows.push_back(row);
+  const std::vector<std::uint32_t> outside = assign(chosen, rows, width, covering);
   if (outside.empty()) return covering;
   take_part(outside);
   grow_until_held(1, SIZE_MAX, width, effort);
-  assign_others(outside, choose(outside), covering);
+  assign(choose(outside), outside, width, covering);
   return covering;
 }
 
@@ -130,8 +146,7 @@ void WideCover::grow_until_held(unsigned times, std::size_t most, double width, 
     while (slabs_.size() <= most) {
       const std::span<const SeedChoice> seeds = seeds_.next_batch();
       if (seeds.empty()) break;
-      add_slabs(seeds, width, effort);
-      std::erase_if(open_, [&](std::uint32_t row) { return hits[row] >= round; });
+      add_slabs(seeds, round, width, effort);
     }
   }
 }
@@ -152,27 +167,38 @@ void WideCover::grow_slabs(std::span<const SeedChoice> seeds, double width, cons
   }
 }
 
-void WideCover::add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort) {
+void WideCover::add_slabs(std::span<const SeedChoice> seeds, unsigned round, double width,
+                          const CoverEffort& effort) {
   const std::size_t first = slabs_.size();
   grow_slabs(seeds, width, effort);
   std::vector<std::vector<std::uint32_t>> found(seeds.size());
-  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { find_held<d>(first, found); });
+  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { find_held<d>(first, round, found); });
   for (const std::vector<std::uint32_t>& rows : found) seeds_.add_slab(rows);
 }
 
-/// What of the open simplices the slabs from `first` on hold.
+/// What of the open simplices the slabs from `first` on hold. Those that `round` slabs hold then are open no
+/// more.
 template <std::size_t D>
-void WideCover::find_held(std::size_t first, std::vector<std::vector<std::uint32_t>>& found) const {
-  for (std::size_t w = first / 64; 64 * w < slabs_.size(); ++w) {
-    const std::uint64_t* word = bits_.data() + w * space_.vertex_count();
-    const std::uint64_t asked = 64 * w < first ? ~std::uint64_t{0} << (first % 64) : ~std::uint64_t{0};
-    for (const std::uint32_t row : open_) {
-      const std::uint16_t* ids = vertices_.data() + std::size_t{row} * D;
-      std::uint64_t common = asked;
+void WideCover::find_held(std::size_t first, unsigned round, std::vector<std::vector<std::uint32_t>>& found) {
+  const std::span<const std::uint8_t> hits = seeds_.hits();
+  const std::size_t vertices = space_.vertex_count(), begin = first / 64, end = (slabs_.size() + 63) / 64;
+  std::size_t count = 0;
+  for (const std::uint32_t row : open_) {
+    const std::uint16_t* ids = vertices_.data() + std::size_t{row} * D;
+    unsigned held = 0;
+    for (std::size_t w = begin; w < end; ++w) {
+      const std::uint64_t* word = bits_.data() + w * vertices;
+      std::uint64_t common = w == begin ? ~std::uint64_t{0} << (first % 64) : ~std::uint64_t{0};
       for (std::size_t k = 0; k < D; ++k) common &= word[ids[k]];
-      visit_bits(common, [&](std::size_t bit) { found[64 * w + bit - first].push_back(row); });
+      if (common == 0) continue;
+      visit_bits(common, [&](std::size_t bit) {
+        found[64 * w + bit - first].push_back(row);
+        ++held;
+      });
     }
+    if (held == 0 || hits[row] + held < round) open_[count++] = row;
   }
+  open_.resize(count);
 }
 
 /// Slabs that together hold these rows.
@@ -241,39 +267,27 @@ std::vector<std::uint64_t> WideCover::bits_of(std::span<const std::uint32_t> sla
   return bits;
 }
 
-/// Calls visit(block, row, words) with the chosen slabs that hold the row, in blocks of rows.
-template <class Visit>
-void WideCover::visit_slabs_of_rows(std::span<const std::uint32_t> chosen, const Visit& visit) const {
-  const std::vector<std::uint64_t> bits = bits_of(chosen);
-  const std::size_t words = words_for(chosen.size());
-  for_each_block(complex_.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint64_t> held_by((end - begin) * words);
-    intersect_rows(bits.data(), words, vertices_.data() + begin * complex_.rank, complex_.rank, end - begin,
-                   held_by.data());
-    for (std::size_t row = begin; row < end; ++row) {
-      if (complex_.state[row] != SimplexState::kLive) continue;
-      visit(begin / kRowsAtATime, static_cast<std::uint32_t>(row),
-            std::span(held_by).subspan((row - begin) * words, words));
-    }
-  });
-}
-
 /// Live rows that none of the chosen slabs holds.
 std::vector<std::uint32_t> WideCover::rows_outside(std::span<const std::uint32_t> chosen) const {
+  const std::vector<std::uint64_t> bits = bits_of(chosen);
+  const std::size_t words = words_for(chosen.size()), rank = complex_.rank;
   std::vector<std::vector<std::uint32_t>> of_block(complex_.row_count / kRowsAtATime + 1);
-  visit_slabs_of_rows(chosen,
-                      [&](std::size_t block, std::uint32_t row, std::span<const std::uint64_t> words) {
-                        std::uint64_t any = 0;
-                        for (const std::uint64_t word : words) any |= word;
-                        if (any == 0) of_block[block].push_back(row);
-                      });
+  for_each_block(complex_.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    if (begin / kRowsAtATime % (std::size_t)1 != 0) return;
+    std::vector<std::uint64_t> held_by((end - begin) * words);
+    intersect_rows(bits.data(), words, vertices_.data() + begin * rank, rank, end - begin, held_by.data());
+    for (std::size_t row = begin; row < end; ++row) {
+      if (complex_.state[row] != SimplexState::kLive) continue;
+      std::uint64_t any = 0;
+      for (std::size_t w = 0; w < words; ++w) any |= held_by[(row - begin) * words + w];
+      if (any == 0) of_block[begin / kRowsAtATime].push_back(static_cast<std::uint32_t>(row));
+    }
+  });
   return joined(of_block);
 }
 
-/// Adds the chosen slabs to the facets, and puts each row into that in which it lies highest. Returns the
-/// live rows that none of them holds.
-std::vector<std::uint32_t> WideCover::assign(std::span<const std::uint32_t> chosen, double width,
-                                             Covering& covering) {
+/// Of each chosen slab the depth of each vertex, in 254ths of the width.
+std::vector<std::uint8_t> WideCover::depths_in(std::span<const std::uint32_t> chosen, double width) const {
   const std::size_t vertices = space_.vertex_count();
   std::vector<std::uint8_t> depths(chosen.size() * vertices, kNotIn);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
@@ -282,45 +296,83 @@ std::vector<std::uint32_t> WideCover::assign(std::span<const std::uint32_t> chos
       const double part = std::clamp(slab.depths[i] / width, 0.0, 1.0);
       depths[c * vertices + slab.vertices[i]] = static_cast<std::uint8_t>(std::ceil(part * kDeepest));
     }
-    covering.planes.push_back(slab.plane);
   }
-  std::vector<std::vector<std::uint32_t>> outside(complex_.row_count / kRowsAtATime + 1);
-  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) {
-    visit_slabs_of_rows(chosen,
-                        [&](std::size_t block, std::uint32_t row, std::span<const std::uint64_t> words) {
-                          const std::uint16_t* ids = vertices_.data() + std::size_t{row} * d;
-                          std::uint32_t highest = kNone;
-                          std::uint8_t least = kNotIn;
-                          for (std::size_t w = 0; w < words.size(); ++w) {
-                            visit_bits(words[w], [&](std::size_t bit) {
-                              const std::uint8_t* depth_of = depths.data() + (64 * w + bit) * vertices;
-                              std::uint8_t depth = 0;
-                              for (std::size_t k = 0; k < d; ++k) depth = std::max(depth, depth_of[ids[k]]);
-                              highest = depth < least ? static_cast<std::uint32_t>(64 * w + bit) : highest;
-                              least = std::min(depth, least);
-                            });
-                          }
-                          covering.facet_of[row] = highest;
-                          if (highest == kNone) outside[block].push_back(row);
-                        });
-  });
-  return joined(outside);
+  return depths;
 }
 
-/// The same for few rows that the chosen slabs hold, in the first of them that does.
-void WideCover::assign_others(std::span<const std::uint32_t> rows, std::span<const std::uint32_t> chosen,
-                              Covering& covering) {
-  const auto first = static_cast<std::uint32_t>(covering.planes.size());
+/// Adds the chosen slabs to the facets, and puts into them what of these rows they hold. Returns the others.
+std::vector<std::uint32_t> WideCover::assign(std::span<const std::uint32_t> chosen,
+                                             std::span<const std::uint32_t> rows, double width,
+                                             Covering& covering) {
   for (const std::uint32_t slab : chosen) covering.planes.push_back(slabs_[slab].plane);
+  std::vector<std::uint32_t> outside;
+  call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) {
+    outside = assign_in<d>(chosen, rows, depths_in(chosen, width), covering);
+  });
+  return outside;
+}
+
+// Each simplex goes into the slab in which it lies highest, or, in a third of the time, slabs grow from their
+// seeds, all at the same time, in passes over the rows as they stand in memory: facets hang together then,
+// and most simplices are looked at in one or two slabs. What that does not reach goes where it lies highest.
+template <std::size_t D>
+std::vector<std::uint32_t> WideCover::assign_in(std::span<const std::uint32_t> chosen,
+                                                std::span<const std::uint32_t> rows,
+                                                const std::vector<std::uint8_t>& depths, Covering& covering) {
+  const std::size_t vertices = space_.vertex_count();
+  const auto first = static_cast<std::uint32_t>(covering.planes.size() - chosen.size());
+  std::vector<std::uint32_t>& facet_of = covering.facet_of;
+  const auto depth_in = [&](std::uint32_t c, std::uint32_t row) {
+    const std::uint8_t* depth_of = depths.data() + c * vertices;
+    const std::uint16_t* ids = vertices_.data() + std::size_t{row} * D;
+    std::uint8_t depth = 0;
+    for (std::size_t k = 0; k < D; ++k) depth = std::max(depth, depth_of[ids[k]]);
+    return depth;
+  };
+  const auto join_neighbour = [&](std::uint32_t row) {
+    std::uint32_t last = kNone;
+    for (const SimplexId neighbour : complex_.neighbours(SimplexId{row})) {
+      const std::uint32_t facet = facet_of[neighbour.value];
+      if (facet == kNone || facet < first || facet == last) continue;
+      last = facet;
+      if (depth_in(facet - first, row) == kNotIn) continue;
+      facet_of[row] = facet;
+      return true;
+    }
+    return false;
+  };
+  std::vector<std::uint32_t> left(rows.begin(), rows.end());
+  if (!by_height_) {
+    for (std::uint32_t c = 0; c < chosen.size(); ++c) {
+      const std::uint32_t seed = slabs_[chosen[c]].seed;
+      if (facet_of[seed] == kNone && depth_in(c, seed) != kNotIn) facet_of[seed] = first + c;
+    }
+    for (std::size_t before = 0; 16 * (before - left.size()) >= before;) {
+      before = left.size();
+      std::erase_if(left, [&](std::uint32_t row) { return facet_of[row] != kNone || join_neighbour(row); });
+      std::reverse(left.begin(), left.end());
+    }
+  }
   const std::vector<std::uint64_t> bits = bits_of(chosen);
   const std::size_t words = words_for(chosen.size());
-  std::vector<std::uint64_t> held_by(words);
-  for (const std::uint32_t row : rows) {
-    intersect_rows(bits.data(), words, vertices_of(row), complex_.rank, 1, held_by.data());
-    const auto word = std::find_if(held_by.begin(), held_by.end(), [](std::uint64_t w) { return w != 0; });
-    const auto at = static_cast<std::uint32_t>(64 * (word - held_by.begin()) + std::countr_zero(*word));
-    covering.facet_of[row] = first + at;
-  }
+  for_each_block(left.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint64_t> held_by(words);
+    for (const std::uint32_t row : std::span(left).subspan(begin, end - begin)) {
+      intersect_rows(bits.data(), words, vertices_of(row), D, 1, held_by.data());
+      std::uint8_t least = kNotIn;
+      for (std::size_t w = 0; w < words; ++w) {
+        visit_bits(held_by[w], [&](std::size_t bit) {
+          const auto c = static_cast<std::uint32_t>(64 * w + bit);
+          const std::uint8_t depth = depth_in(c, row);
+          facet_of[row] = depth < least ? first + c : facet_of[row];
+          least = std::min(depth, least);
+        });
+      }
+    }
+  });
+  std::erase_if(left, [&](std::uint32_t row) { return facet_of[row] != kNone; });
+  std::sort(left.begin(), left.end());
+  return left;
 }
 
 void WideCover::find_depths(const Covering& covering, std::span<float> depth_of) const {

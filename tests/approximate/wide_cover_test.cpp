@@ -112,5 +112,49 @@ TEST(WideCoverLaw, EachSimplexIsInAFacetThatHoldsItMostlyTheOneWhereItIsHighest)
   }
 }
 
+/// How many of the simplices are connected with the first one of their facet only by way of others.
+std::size_t count_cut_off(const SimplicialComplex& complex, const Covering& covering) {
+  std::vector<std::uint8_t> is_reached(complex.row_count, 0), is_begun(covering.planes.size(), 0);
+  std::size_t cut_off = 0;
+  for (std::uint32_t first = 0; first < complex.row_count; ++first) {
+    const std::uint32_t facet = covering.facet_of[first];
+    if (facet == kNone || is_reached[first] != 0) continue;
+    std::vector<std::uint32_t> part{first};
+    is_reached[first] = 1;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      for (const SimplexId neighbour : complex.neighbours(SimplexId{part[i]})) {
+        if (covering.facet_of[neighbour.value] != facet || is_reached[neighbour.value] != 0) continue;
+        is_reached[neighbour.value] = 1;
+        part.push_back(neighbour.value);
+      }
+    }
+    if (is_begun[facet] != 0) cut_off += part.size();
+    is_begun[facet] = 1;
+  }
+  return cut_off;
+}
+
+TEST(WideCoverLaw, ManyFacetsHangTogether) {
+  const GrownSphere sphere("300 s D7 t3", 300);
+  const SimplicialComplex& complex = sphere.work.complex;
+  const SlabGrower grower(complex, *sphere.space, nullptr, true);
+  SlabSeeds seeds(complex, *sphere.space, true);
+  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
+  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
+  const double width = 0.3;
+  const std::optional<Covering> covering = wide.cover(width, CoverEffort{});
+  ASSERT_TRUE(covering.has_value());
+  EXPECT_GT(covering->planes.size(), 256U);
+  EXPECT_FALSE(wide.has_strays());
+  std::size_t live = 0;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    EXPECT_EQ(sphere.is_live(row), covering->facet_of[row] != kNone);
+    if (!sphere.is_live(row)) continue;
+    ++live;
+    EXPECT_LE(depth_below(sphere, covering->planes[covering->facet_of[row]], row), width);
+  }
+  EXPECT_LT(50 * count_cut_off(complex, *covering), live);
+}
+
 }  // namespace
 }  // namespace ndhull
