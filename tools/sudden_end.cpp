@@ -68,12 +68,39 @@ void watch_bus_errors() {
   ::sigaction(SIGBUS, &action, nullptr);
 }
 
+void remove_doomed_files() {
+  for (const Slot& slot : doomed_files)
+    if (slot.state == kReady) ::unlink(slot.name.data());
+}
+
+void end_after_signal(int signal) {
+  remove_doomed_files();
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);  // delivered on return: whoever waits sees what ended it
+}
+
+/// Signals that someone has chosen to ignore, as nohup does, or to handle stay so. Ctrl-C where nobody waits
+/// for it (interrupt.h) is one of them.
+void watch_ends() {
+  static const bool is_watched = [] {
+    for (const int signal : {SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGXCPU}) {
+      struct sigaction action {};
+      if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+      action.sa_handler = end_after_signal;
+      ::sigaction(signal, &action, nullptr);
+    }
+    return true;
+  }();
+  static_cast<void>(is_watched);
+}
+
 }  // namespace
 
 DoomedFile::DoomedFile(const std::string& path) {
   Slot* const slot = take(doomed_files, path);
   if (slot != nullptr) slot->state = kReady;
   slot_ = slot;
+  watch_ends();
 }
 
 DoomedFile& DoomedFile::operator=(DoomedFile&& other) noexcept {
@@ -101,8 +128,7 @@ WatchedMapping& WatchedMapping::operator=(WatchedMapping&& other) noexcept {
 WatchedMapping::~WatchedMapping() { give_back(slot_); }
 
 void end_suddenly(int exit_code) {
-  for (const Slot& slot : doomed_files)
-    if (slot.state == kReady) ::unlink(slot.name.data());
+  remove_doomed_files();
   ::_exit(exit_code);
 }
 

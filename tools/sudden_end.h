@@ -1,5 +1,5 @@
-// Ends that leave no time to unwind: a mapped file that becomes shorter while it is read, the second Ctrl-C.
-// What was begun to be written is removed all the same.
+// Ends that leave no time to unwind: a mapped file that becomes shorter while it is read, the second Ctrl-C,
+// a scheduler's SIGTERM. What was begun to be written is removed all the same.
 #pragma once
 
 #include <cstddef>

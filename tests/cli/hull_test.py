@@ -196,6 +196,20 @@ def test_ctrl_c_while_reading():
         process.stdin.close()
 
 
+def test_nothing_half_written_stays_when_a_scheduler_ends_the_run():
+    folder = fresh_folder("terminate")
+    rbox(LONG_RUN, folder / "points.npy")
+    for command in (["hull", "--planes"], ["view", "-o"]):
+        words = [PROGRAM, command[0], str(folder / "points.npy"), command[1], str(folder / "result.svg")]
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+                while process.poll() is None and not list(folder.glob("result.svg.*")):
+                    time.sleep(0.01)
+                process.send_signal(number)
+                assert process.wait(timeout=10) == -number, process.returncode
+            assert [path.name for path in folder.iterdir()] == ["points.npy"], list(folder.iterdir())
+
+
 def test_verify_in_all_its_spellings():
     path = fresh_folder("verify") / "points.npy"
     points = rbox("200 s D5 t1", path)
