@@ -58,6 +58,8 @@ class ConeWalk {
 
   const std::vector<std::uint32_t>& basis() const { return basis_; }
   const Eigen::VectorXd& plane() const { return plane_; }
+  /// Ray: lambda, one for each point of the basis.
+  const Eigen::VectorXd& weights() const { return weights_; }
   /// Ray: how far out it is, sum lambda = a.r; at most 1 as soon as r is proven to be in the hull.
   double gauge() const { return weights_.sum(); }
   std::size_t pivot_count() const { return pivot_count_; }

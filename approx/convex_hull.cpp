@@ -116,6 +116,15 @@ class HullBuilder {
   void approximate(const std::vector<double>& factor) {
     const Clock::time_point begin = Clock::now();
     const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
+    constexpr double kLongest = 1e36;  // depths are kept in single precision
+    const Accuracy& accuracy = options_.accuracy;
+    const bool gathers = accuracy.facets > 0 || lengths.width > 0.0 || accuracy.merges_neighbours();
+    if (gathers && !(lengths.largest_extent < kLongest)) {
+      throw Error(
+          ErrorCode::kNotFinite,
+          "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
+          "coordinates by a power of two, or measure widths in the unit cube");
+    }
     clusters_ = Approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_).run();
     seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
   }

@@ -9,6 +9,7 @@
 #include "approx/frame_planes.h"
 #include "approx/ray_shooting.h"
 #include "core/error.h"
+#include "core/plane_value.h"
 #include "core/stopwatch.h"
 
 namespace ndhull {
@@ -16,6 +17,9 @@ namespace {
 
 /// Points that are asked about between two looks at the clock.
 constexpr std::size_t kBatch = 2048;
+/// So near to an earlier point a point is met as that: each would be inside the hull of the others, with the
+/// other among them, by rounding. [ratio to the longest point] Twice what tells inside from outside.
+constexpr double kNear = 4e-12;
 
 /// A vertex and the plane in the frame that parts it: a.y = level.
 struct FoundVertex {
@@ -38,7 +42,7 @@ std::vector<FoundVertex> ends_of_segment(const RayShooter& shooter) {
 class ExtremeSearch {
  public:
   ExtremeSearch(RayShooter& shooter, const ExtremeOptions& options, Clock::time_point start)
-      : shooter_(shooter), options_(options), start_(start) {}
+      : shooter_(shooter), options_(options), start_(start), is_doubtful_(shooter.point_count(), 1) {}
 
   /// Asks about every distinct point, the longest first: those are vertices more often than others.
   void run(ExtremePoints& result) {
@@ -60,11 +64,18 @@ class ExtremeSearch {
       }
     }
     result.open_points += first < count ? count - first : 0;
+    count_inside(result);
   }
 
   std::vector<FoundVertex>& found() { return found_; }
 
  private:
+  struct InsidePoint {
+    std::uint32_t id;
+    std::vector<std::uint32_t> basis;
+    std::vector<double> weights;
+  };
+
   bool is_over(ExtremePoints& result) const {
     if (options_.stop.stop_requested()) result.status = ExtremeStatus::kInterrupted;
     if (options_.max_seconds > 0.0 && seconds_since(start_) > options_.max_seconds) {
@@ -75,9 +86,18 @@ class ExtremeSearch {
 
   void note(std::uint32_t id, WalkResult& walk, ExtremePoints& result) {
     switch (walk.end) {
-      case WalkEnd::kInside: ++result.points_inside; return;
+      case WalkEnd::kInside: {
+        InsidePoint point{id, std::move(walk.basis), std::move(walk.weights)};
+        if (is_proven(point)) {
+          ++result.points_inside;
+        } else {
+          inside_.push_back(std::move(point));
+        }
+        return;
+      }
       case WalkEnd::kOutside:
         shooter_.add_to_core(id);
+        is_doubtful_[id] = 0;
         found_.push_back({id, std::move(walk.plane), walk.level});
         return;
       case WalkEnd::kNotBegun: result.status = ExtremeStatus::kInterrupted; [[fallthrough]];
@@ -86,15 +106,71 @@ class ExtremeSearch {
     }
   }
 
+  /// Is more than a small part of what the point is a combination of beyond doubt?
+  bool is_proven(const InsidePoint& point) const {
+    constexpr double kSmallPart = 1.0 / 16.0;
+    double doubt = 0.0, all = 0.0;
+    for (std::size_t k = 0; k < point.basis.size(); ++k) {
+      all += point.weights[k];
+      if (point.basis[k] < is_doubtful_.size() && is_doubtful_[point.basis[k]] != 0)
+        doubt += point.weights[k];
+    }
+    return all - doubt >= kSmallPart * all;
+  }
+
+  /// Two points at a sharp corner can each be inside the hull of the others by rounding, by way of the other:
+  /// that proves nothing. What is a combination of such points, but for a small part, stays open.
+  void count_inside(ExtremePoints& result) {
+    for (std::uint8_t& flag : is_doubtful_) flag = 0;
+    for (const InsidePoint& point : inside_) is_doubtful_[point.id] = 1;
+    for (std::size_t before = SIZE_MAX; inside_.size() < before;) {
+      before = inside_.size();
+      std::erase_if(inside_, [&](const InsidePoint& point) {
+        if (!is_proven(point)) return false;
+        is_doubtful_[point.id] = 0;
+        return true;
+      });
+      result.points_inside += before - inside_.size();
+    }
+    result.open_points += inside_.size();
+  }
+
   RayShooter& shooter_;
   const ExtremeOptions& options_;
   Clock::time_point start_;
   std::vector<FoundVertex> found_;
+  std::vector<std::uint8_t> is_doubtful_;  // one a point: not known to be a vertex
+  std::vector<InsidePoint> inside_;        // not proven so far
 };
 
-/// Planes in input units, in the order of the ids.
-void write_planes(const Frame& frame, std::vector<FoundVertex>& found, const RayShooter& shooter,
+void count_copies(const PointView& points, const RayShooter& shooter, ExtremePoints& result) {
+  const std::size_t dimension = result.dimension;
+  std::vector<std::uint32_t> vertex_of(points.rows, kNone);
+  for (std::uint32_t row = 0; row < result.vertices.size(); ++row)
+    vertex_of[result.vertices[row].value] = row;
+  result.copies.assign(result.vertices.size(), 1);
+  std::vector<double> first(dimension), other(dimension);
+  for (std::uint32_t id = 0; id < points.rows; ++id) {
+    const std::uint32_t copied = shooter.copy_of()[id], row = vertex_of[copied];
+    if (copied == id) continue;
+    points.copy_row(copied, first.data());
+    points.copy_row(id, other.data());
+    bool is_copy = first == other;
+    if (!is_copy && row != kNone) {
+      const std::span<const double> plane(result.planes.data() + row * (dimension + 1), dimension + 1);
+      const CentredPlane halfspace{plane.first(dimension), {}, plane[dimension], 0.0, 1.0};
+      is_copy = plane_sign(halfspace, other, DoubtfulSign::kExtendedThenExact) > 0.0;
+    }
+    if (!is_copy) ++result.points_inside;  // a distinct point, as near as it is
+    if (is_copy && row != kNone) ++result.copies[row];
+  }
+}
+
+/// Planes in input units, in the order of the ids. Of points near to a vertex those above its plane are
+/// copies.
+void write_planes(const PointView& points, std::vector<FoundVertex>& found, const RayShooter& shooter,
                   ExtremePoints& result) {
+  const Frame& frame = shooter.frame();
   std::sort(found.begin(), found.end(),
             [](const FoundVertex& a, const FoundVertex& b) { return a.id < b.id; });
   const std::size_t dimension = frame.dimension;
@@ -108,10 +184,10 @@ void write_planes(const Frame& frame, std::vector<FoundVertex>& found, const Ray
     double offset = -vertex.level / length;
     for (std::size_t k = 0; k < dimension; ++k) offset -= normal[k] * frame.centre[k];
     result.vertices.push_back(PointId{vertex.id});
-    result.copies.push_back(shooter.copies_of(vertex.id));
     result.planes.insert(result.planes.end(), normal.begin(), normal.end());
     result.planes.push_back(offset);
   }
+  count_copies(points, shooter, result);
 }
 
 }  // namespace
@@ -132,7 +208,7 @@ ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& opti
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                              : static_cast<int>(options.threads));
   arena.execute([&] {
-    RayShooter shooter(points);
+    RayShooter shooter(points, kNear);
     const Frame& frame = shooter.frame();
     result.dimension = frame.dimension;
     result.rank = frame.rank;
@@ -154,7 +230,7 @@ ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& opti
     } else {
       search.run(result);
     }
-    write_planes(frame, search.found(), shooter, result);
+    write_planes(points, search.found(), shooter, result);
   });
   result.seconds = seconds_since(start);
   return result;

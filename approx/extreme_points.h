@@ -31,11 +31,13 @@ std::string_view to_string(ExtremeStatus status);
 struct ExtremePoints {
   std::size_t dimension = 0, rank = 0, point_count = 0;
   ExtremeStatus status = ExtremeStatus::kComplete;
-  std::vector<PointId> vertices;  ///< ascending; of equal points the first
+  std::vector<PointId> vertices;  ///< ascending; of points that are equal, or equal up to roundoff, the first
   /// One row a vertex, dimension + 1 numbers, unit normal and offset: normal . x + offset is above 0 at the
-  /// vertex (and at points equal to it) and below 0 at all others. Empty when all points are equal.
+  /// vertex (and at its copies) and below 0 at all others. Empty when all points are equal.
   std::vector<double> planes;
-  std::vector<std::uint32_t> copies;  ///< one a vertex: points of the input equal to it, itself included
+  /// One a vertex, itself included: points of the input equal to it, and those equal up to roundoff that are
+  /// above its plane.
+  std::vector<std::uint32_t> copies;
   std::vector<double> interior_point;
   std::uint64_t points_inside = 0;  ///< distinct points that are no vertices
   /// Distinct points that were not decided: rounding, or a limit. 0 when complete, but for rounding.
@@ -51,7 +53,7 @@ struct ExtremePoints {
 ///           geometric algorithms. FOCS 1994; Ottmann, Schuierer, Soundaralakshmi. Enumerating extreme points
 ///           in higher dimensions. STACS 1995).
 /// Roundoff  A point less than about 2e-12 of the hull's size outside the hull of the others is none, as for
-///           growth.
+///           growth. Of points within 4e-12 of each other the first stands for all.
 /// Throws    Error as fit_frame; kDimensionTooHigh rank above kMaxExtremeRank.
 /// Cost      points x vertices x dimension multiply-adds at the worst, times the pivots of a program (10 in
 ///           10-d); 12 rank bytes a point, 8 dimension a vertex.

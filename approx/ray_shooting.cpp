@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "approx/near_copies.h"
 #include "core/blocks.h"
 #include "core/dense_solve.h"
 #include "core/portable_random.h"
@@ -51,6 +52,11 @@ struct RayShooter::Walker {
   double direction_length = 1.0;         // of the plane that the query's direction is a unit vector along
   std::vector<std::uint32_t> additions;  // points that were above: the core takes them in
   WalkResult result;
+
+  void note_proof() {
+    result.basis = walk.basis();
+    result.weights.assign(walk.weights().begin(), walk.weights().end());
+  }
 };
 
 namespace {
@@ -76,12 +82,12 @@ void ask(Walker& walker, double product_error, float* direction) {
 
 }  // namespace
 
-RayShooter::RayShooter(const PointView& points) : frame_(fit_frame(points)) {
+RayShooter::RayShooter(const PointView& points, double near) : frame_(fit_frame(points)) {
   point_count_ = points.rows;
   if (frame_.rank == 0) return;
   const std::vector<std::uint32_t> furthest = find_centre(points);
   is_in_core_.assign(point_count_, false);
-  fill_tiles();
+  fill_tiles(near);
   core_ = ScanTiles(frame_.rank);
   for (const std::uint32_t id : furthest) add_to_core(id);
 }
@@ -149,35 +155,29 @@ std::vector<std::uint32_t> RayShooter::find_centre(const PointView& points) {
 }
 
 /// Longest points first; of equal points only the first, so that points on a plane are different ones.
-void RayShooter::fill_tiles() {
+void RayShooter::fill_tiles(double near) {
   const std::size_t rank = frame_.rank;
   const FramePoints in_frame{coordinates_.data(), rank, 0.0};
   std::vector<double> length_sq(point_count_);
   for (std::uint32_t id = 0; id < point_count_; ++id) length_sq[id] = in_frame.point(id).squaredNorm();
-  std::vector<std::uint32_t> order(point_count_);
-  std::iota(order.begin(), order.end(), 0);
+  const double longest = std::sqrt(*std::max_element(length_sq.begin(), length_sq.end()));
+  copy_of_ = find_near_copies(coordinates_.data(), point_count_, rank, near * longest);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t id = 0; id < point_count_; ++id) {
+    if (copy_of_[id] == id) {
+      order.push_back(id);
+    } else {
+      is_in_core_[id] = true;  // never to be added
+    }
+  }
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (length_sq[a] != length_sq[b]) return length_sq[a] > length_sq[b];
     const double *const x = in_frame.row(a), *const y = in_frame.row(b);
-    for (std::size_t k = 0; k < rank; ++k) {
-      if (x[k] != y[k]) return x[k] < y[k];
-    }
-    return a < b;
+    return std::lexicographical_compare(x, x + rank, y, y + rank);
   });
   all_ = ScanTiles(rank);
-  all_.reserve(point_count_);
-  copies_.assign(point_count_, 0);
-  std::uint32_t last = DirectionQuery::kNoPoint;
-  for (const std::uint32_t id : order) {
-    const double* const row = in_frame.row(id);
-    if (last != DirectionQuery::kNoPoint && std::equal(row, row + rank, in_frame.row(last))) {
-      is_in_core_[id] = true;  // never to be added
-    } else {
-      all_.append(row, id);
-      last = id;
-    }
-    ++copies_[last];
-  }
+  all_.reserve(order.size());
+  for (const std::uint32_t id : order) all_.append(in_frame.row(id), id);
   all_.mark_sorted();
 }
 
@@ -213,6 +213,7 @@ bool RayShooter::ends_inside(Walker& walker) const {
   if (walker.walk.gauge() > 1.0 + kAbove) return false;  // rounding had moved it
   walker.state = Walker::State::kDone;
   walker.result.end = WalkEnd::kInside;
+  walker.note_proof();
   return true;
 }
 
@@ -308,6 +309,7 @@ void RayShooter::decide(Walker& walker) const {
   if (walker.asks_inside) {
     result.end = result.gauge > 1.0 + 2.0 * above ? WalkEnd::kOutside : WalkEnd::kInside;
     result.level = 0.5 * (1.0 + above + result.gauge);
+    walker.note_proof();
     return;
   }
   result.end = WalkEnd::kFacet;

@@ -49,7 +49,10 @@ enum class WalkEnd {
 
 struct WalkResult {
   WalkEnd end = WalkEnd::kNotBegun;
-  std::vector<std::uint32_t> basis;     ///< rank points on the plane
+  /// rank points on the plane; kInside: what `direction` is a combination of, with points on the axes, whose
+  /// ids are those after the points'
+  std::vector<std::uint32_t> basis;
+  std::vector<double> weights;          ///< kInside: of the basis, in that combination
   std::vector<double> plane;            ///< a with a.y = 1 at the basis, frame
   std::vector<std::uint32_t> on_plane;  ///< kFacet: ids of all points within `coplanar` of the plane,
                                         ///< ascending; of equal points the first
@@ -72,7 +75,8 @@ class RayShooter {
   /// directions, where rays see large facets under large angles.
   /// Throws    Error as fit_frame.
   /// Cost      time of some 300 products of all points with a direction; 12 rank bytes a point.
-  explicit RayShooter(const PointView& points);
+  /// Near      points no further from an earlier one are met as that. [ratio to the longest point]
+  explicit RayShooter(const PointView& points, double near = 0.0);
 
   const Frame& frame() const { return frame_; }
   FramePoints points() const { return {coordinates_.data(), frame_.rank, all_.largest_length()}; }
@@ -81,8 +85,8 @@ class RayShooter {
   std::size_t distinct_count() const { return all_.size(); }
   /// The one in this place, the longest first.
   std::uint32_t distinct_point(std::size_t place) const { return all_.id(place); }
-  /// Points of the input equal to a distinct one, itself included.
-  std::uint32_t copies_of(std::uint32_t id) const { return copies_[id]; }
+  /// Of each point the distinct one that it is equal or near to.
+  std::span<const std::uint32_t> copy_of() const { return copy_of_; }
   std::size_t core_size() const { return core_.size(); }
   const WalkCounters& counters() const { return counters_; }
 
@@ -96,7 +100,7 @@ class RayShooter {
 
  private:
   struct Walker;
-  void fill_tiles();
+  void fill_tiles(double near);
   std::vector<std::uint32_t> find_centre(const PointView& points);
   bool begin(const WalkTask& task, Walker& walker) const;
   void walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const;
@@ -110,7 +114,7 @@ class RayShooter {
   std::vector<double> coordinates_;  // the points and 2 rank points inside the hull, on the axes
   ScanTiles all_{0}, core_{0};
   std::vector<bool> is_in_core_;
-  std::vector<std::uint32_t> copies_;  // 0: a copy itself
+  std::vector<std::uint32_t> copy_of_;
   WalkCounters counters_;
 };
 

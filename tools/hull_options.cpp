@@ -36,6 +36,7 @@ void check_accuracy(const Accuracy& accuracy) {
   const auto refuse = [](std::string_view found, std::string_view remedy) {
     throw Error(ErrorCode::kUsage, fmt::format("found {}; {}", found, remedy));
   };
+  if (std::isnan(accuracy.max_cosine)) refuse("--max-cosine nan", "expected a number from -1 to 1");
   if (accuracy.width.is_set() && accuracy.facets > 0)
     refuse("--width with --facets", "one is the target, the other what comes out: give one of them");
   if (accuracy.merges_neighbours() && (accuracy.width.is_set() || accuracy.facets > 0))

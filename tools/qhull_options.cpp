@@ -307,6 +307,10 @@ class Parser {
   void complete() {
     const bool merges = has_radius_ || command_.max_cosine <= 1.0;
     command_.is_merged = merges || !(is_unmerged_ || command_.joggle);
+    // Points that are no vertices are printed: the coplanar ones, unless Qi says which.
+    const auto lists_points = [](const std::string& format) { return format == "Fc" || format == "FP"; };
+    if (!command_.keep_interior && std::ranges::any_of(command_.formats, lists_points))
+      command_.keep_coplanar = true;
     // Qhull takes what is less than twice V outside for coplanar, unless W says otherwise.
     if (visible_ && !command_.outside_width) command_.outside_width = 2.0 * *visible_;
     if (command_.reruns > 0 && !command_.joggle) {

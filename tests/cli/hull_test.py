@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import numpy
-from program import DIAMONDS, PROGRAM, fresh_folder, rbox, report_of, run, run_tests
+from program import DIAMONDS, PROGRAM, fresh_folder, one_error_line, rbox, report_of, run, run_tests
 
 KEYS = """ndhull input status options length_unit vertices facets simplicial_facets merged_facets simplices area
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
@@ -62,7 +62,7 @@ def test_targets_and_merging():
 
 def test_accuracy_options_that_contradict():
     for words in (["--width", "1", "--facets", "9"], ["--width", "1", "--centrum-radius", "1"],
-                  ["--width-cap", "1"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
+                  ["--width-cap", "1"], ["--max-cosine", "nan"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
         done = run("hull", DIAMONDS, *words, exit_code=1)
         assert done.stdout == "" and done.stderr.count("\n") == 1, (words, done.stderr)
 
@@ -194,6 +194,15 @@ def test_ctrl_c_while_reading():
         process.send_signal(signal.SIGINT)
         assert process.wait(timeout=10) == 130
         process.stdin.close()
+
+
+def test_extents_beyond_single_precision_are_refused_where_facets_are_merged():
+    path = fresh_folder("long") / "points.npy"
+    numpy.save(path, numpy.random.default_rng(1).normal(size=(60, 4)) * 1e40)
+    for words in (["--facets", "8"], ["--width", "5%"], ["--max-cosine", "0.9"]):
+        one_error_line(run("hull", path, *words, exit_code=1), "not-finite")
+        assert report_of(path, *words, "--unit-cube", "--verify")["points_outside"] == 0
+    assert report_of(path, "--outside-width", "5%", "--verify")["points_outside"] == 0
 
 
 def test_nothing_half_written_stays_when_a_scheduler_ends_the_run():

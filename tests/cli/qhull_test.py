@@ -192,6 +192,14 @@ def test_fp_names_the_nearest_vertex_of_the_facet():
         assert abs(float(line.split()[3]) - distances.min()) < 1e-15
 
 
+def test_fc_and_fp_keep_coplanar_points_without_being_asked():
+    stdin = points_of("60 W0 c D3 t1")
+    for output in ("Fc", "FP"):
+        assert ours(output, stdin) == ours(f"Qc {output}", stdin)
+        if QHULL is not None:
+            assert ours(output, stdin).splitlines()[0] == theirs(output, stdin).splitlines()[0]
+
+
 def test_selections_keep_qhulls_facets():
     if QHULL is None:
         return

@@ -59,6 +59,37 @@ TEST(ExtremePointsOracle, AreTheVerticesOfTheHullForEveryFamily) {
   }
 }
 
+/// Each of two points that are nearer than roundoff is inside the hull of the others, by way of the other.
+TEST(ExtremePointsRegression, OfPointsAsGoodAsEqualOneIsAVertex) {
+  for (const std::size_t d : {2U, 3U, 5U}) {
+    for (const double gap : {0x1p-52, 1e-14, 5e-13, 1e-12, 2e-12, 3e-12, 1e-11, 1e-9}) {
+      SCOPED_TRACE(std::to_string(d) + "-d, gap " + std::to_string(gap * 1e12) + "e-12");
+      PointSet set = family_points(PointFamily::kSphere, 40, d, 5);
+      const std::vector<double> once = set.coordinates;
+      for (const double x : once) set.coordinates.push_back(x * (1.0 + gap));
+      const ExtremePoints found = extreme_points(set.view());
+      EXPECT_EQ(found.vertices.size(), 40U);
+      EXPECT_EQ(found.open_points, 0U);
+      std::uint64_t copies = 0;
+      for (std::size_t one = 0; one < found.vertices.size(); ++one) {
+        std::uint32_t above = 0;
+        for (std::size_t row = 0; row < set.rows(); ++row) {
+          long double value = found.planes[one * (d + 1) + d];
+          for (std::size_t k = 0; k < d; ++k)
+            value += static_cast<long double>(found.planes[one * (d + 1) + k]) * set.row(row)[k];
+          above += value > 0.0L ? 1U : 0U;
+          if (row == found.vertices[one].value) {
+            EXPECT_GT(value, 0.0L);
+          }
+        }
+        EXPECT_EQ(above, found.copies[one]);
+        copies += above;
+      }
+      EXPECT_EQ(found.points_inside, set.rows() - copies);
+    }
+  }
+}
+
 TEST(ExtremePointsOracle, AreTheVerticesOfTheHullOnDegenerateInputs) {
   for (std::size_t d = 2; d <= 6; ++d) {
     for (const DegenerateCase& input : degenerate_cases(80, d, 40 + d)) {
