@@ -18,8 +18,9 @@ namespace {
 /// Points that are asked about between two looks at the clock.
 constexpr std::size_t kBatch = 2048;
 /// So near to an earlier point a point is met as that: each would be inside the hull of the others, with the
-/// other among them, by rounding. [ratio to the longest point] Twice what tells inside from outside.
-constexpr double kNear = 4e-12;
+/// other among them, by rounding. [ratio to the longest point] A quarter of what tells inside from outside:
+/// planes part vertices by more.
+constexpr double kNear = 2.5e-13;
 
 /// A vertex and the plane in the frame that parts it: a.y = level.
 struct FoundVertex {

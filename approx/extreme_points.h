@@ -53,7 +53,8 @@ struct ExtremePoints {
 ///           geometric algorithms. FOCS 1994; Ottmann, Schuierer, Soundaralakshmi. Enumerating extreme points
 ///           in higher dimensions. STACS 1995).
 /// Roundoff  A point less than about 2e-12 of the hull's size outside the hull of the others is none, as for
-///           growth. Of points within 4e-12 of each other the first stands for all.
+///           growth. Of points within 2.5e-13 of each other the first stands for all;
+///           of those a little further apart some stay open.
 /// Throws    Error as fit_frame; kDimensionTooHigh rank above kMaxExtremeRank.
 /// Cost      points x vertices x dimension multiply-adds at the worst, times the pivots of a program (10 in
 ///           10-d); 12 rank bytes a point, 8 dimension a vertex.
