@@ -273,7 +273,6 @@ std::vector<std::uint32_t> WideCover::rows_outside(std::span<const std::uint32_t
   const std::size_t words = words_for(chosen.size()), rank = complex_.rank;
   std::vector<std::vector<std::uint32_t>> of_block(complex_.row_count / kRowsAtATime + 1);
   for_each_block(complex_.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
-    if (begin / kRowsAtATime % (std::size_t)1 != 0) return;
     std::vector<std::uint64_t> held_by((end - begin) * words);
     intersect_rows(bits.data(), words, vertices_.data() + begin * rank, rank, end - begin, held_by.data());
     for (std::size_t row = begin; row < end; ++row) {
