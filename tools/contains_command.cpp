@@ -13,6 +13,7 @@
 #include "tools/command_options.h"
 #include "tools/file_bytes.h"
 #include "tools/halfspace_reader.h"
+#include "tools/named_outputs.h"
 #include "tools/npy_header.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
@@ -75,6 +76,7 @@ void run_contains(const ContainsArguments& arguments) {
   }
   const HalfspaceFile planes = read_halfspaces(arguments.planes);
   const PointFile queries = read_points(arguments.queries);
+  check_outputs_are_writable({{"--output", arguments.output}}, {arguments.planes, arguments.queries});
   if (planes.dimension != queries.view().dimension) {
     throw Error(ErrorCode::kUsage,
                 fmt::format("{}: found planes in {}-d, expected {}-d as the queries of {}", planes.path,

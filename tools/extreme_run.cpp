@@ -186,7 +186,7 @@ int run_extreme(const ExtremeRequest& asked) {
                                                      : static_cast<int>(request.options.threads));
   progress.show_phase("read");
   const PointFile points = read_points(request.points_path);
-  check_outputs_are_writable(outputs);
+  check_outputs_are_writable(outputs, {request.points_path});
   request.options.threads = static_cast<unsigned>(arena.max_concurrency());
   request.options.stop = interrupt.token();
   if (progress.is_shown()) {

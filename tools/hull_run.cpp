@@ -26,6 +26,7 @@
 #include "tools/progress_line.h"
 #include "tools/qhull_formats.h"
 #include "tools/selection_options.h"
+#include "tools/shard_files.h"
 #include "tools/trade_curve.h"
 
 namespace ndhull {
@@ -43,6 +44,11 @@ std::vector<NamedOutput> outputs_of(const HullRequest& request) {
     outputs.push_back({"--curve", paths.picture});
   }
   return outputs;
+}
+
+std::vector<std::string> inputs_of(const HullRequest& request) {
+  return request.shards_pattern.empty() ? std::vector{request.points_path}
+                                        : files_matching(request.shards_pattern);
 }
 
 template <class Number>
@@ -159,7 +165,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
 
   progress.show_phase("read");
   HullInput input(request.points_path, kept_file_bytes(request.options.limits), request.shards_pattern, group,
-                  [&] { check_outputs_are_writable(outputs); });
+                  [&] { check_outputs_are_writable(outputs, inputs_of(request)); });
   ReportContext context{.input_path = request.shards_pattern + request.points_path,
                         .options = request.options,
                         .program_options = program_options(request),

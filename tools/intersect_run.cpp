@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "tools/halfspace_reader.h"
 #include "tools/interrupt.h"
 #include "tools/intersection_writer.h"
+#include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/point_writer.h"
 #include "tools/progress_line.h"
@@ -18,21 +20,12 @@
 namespace ndhull {
 namespace {
 
-void check_outputs_differ(const IntersectRequest& request) {
-  std::vector<std::pair<std::string_view, std::string>> outputs;
-  if (!request.vertices_path.empty()) outputs.emplace_back("--vertices", request.vertices_path);
-  if (!request.formats.empty()) outputs.emplace_back("--format", "-");
-  if (!request.report_path.empty()) outputs.emplace_back("--report", request.report_path);
-  for (std::size_t one = 0; one < outputs.size(); ++one) {
-    for (std::size_t other = 0; other < one; ++other) {
-      if (outputs[one].second != outputs[other].second) continue;
-      throw Error(
-          ErrorCode::kUsage,
-          fmt::format("{} and {}: found both on {}, expected a place for each; give one of them a file",
-                      outputs[other].first, outputs[one].first,
-                      outputs[one].second == "-" ? "standard output" : outputs[one].second));
-    }
-  }
+std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
+  std::vector<NamedOutput> outputs;
+  if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
+  if (!request.formats.empty()) outputs.push_back({"--format", "-"});
+  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  return outputs;
 }
 
 void write_vertices(const IntersectRequest& request, const HalfspaceIntersection& intersection) {
@@ -54,12 +47,14 @@ void write_vertices(const IntersectRequest& request, const HalfspaceIntersection
 
 int run_intersect(const IntersectRequest& request) {
   const Clock::time_point start = Clock::now();
-  check_outputs_differ(request);
+  const std::vector<NamedOutput> outputs = outputs_of(request);
+  check_outputs_differ(outputs);
   check_intersection_formats(request.formats);
   Interrupt interrupt;
   ProgressLine progress(request.progress, request.quiet);
   progress.show_phase("read");
   const HalfspaceFile file = read_halfspaces(request.halfspaces_path);
+  check_outputs_are_writable(outputs, {request.halfspaces_path});
   IntersectionReportContext context{.input_path = request.halfspaces_path, .options = request.options};
   context.vertex_list = request.vertex_list;
   if (!context.options.interior_point) context.options.interior_point = file.interior_point;

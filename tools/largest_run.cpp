@@ -101,7 +101,7 @@ int run_largest(const LargestRequest& request) {
 
   progress.show_phase("read");
   const PointFile points = read_points(request.points_path);
-  check_outputs_are_writable(outputs);
+  check_outputs_are_writable(outputs, {request.points_path});
   LargestReportContext context{.input_path = request.points_path,
                                .options = request.options,
                                .program_options = program_options(request),

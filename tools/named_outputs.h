@@ -15,12 +15,14 @@ struct NamedOutput {
   std::string path;
 };
 
-/// Throws Error kUsage when two outputs want the same file or standard output.
+/// Throws Error kUsage when two outputs want the same file, by whatever names, or standard output.
 void check_outputs_differ(const std::vector<NamedOutput>& outputs);
 
-/// Says that a file cannot be written before the time for the result is spent, not after it.
-/// Throws Error kFileWrite.
-void check_outputs_are_writable(const std::vector<NamedOutput>& outputs);
+/// Says that a file cannot be written, or is one that is read, before the time for the result is spent.
+/// `inputs`: paths that are read; "-" is standard input, which may be redirected from a file.
+/// Throws Error kFileWrite, kUsage.
+void check_outputs_are_writable(const std::vector<NamedOutput>& outputs,
+                                const std::vector<std::string>& inputs);
 
 /// A path as it is reported: null when the output is not wanted.
 OptionValue path_or_null(const std::string& path);

@@ -15,6 +15,7 @@
 #include "tools/halfspace_reader.h"
 #include "tools/interrupt.h"
 #include "tools/intersection_writer.h"
+#include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
 #include "tools/qhull_run.h"
@@ -106,6 +107,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   const std::string invocation = invocation_of(bytes.view(), command);
   if (command.is_cdd) check_cdd(bytes, command.input_path);
   const HalfspaceFile file = parse_halfspaces(std::move(bytes), command.input_path);
+  check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   IntersectionOptions options;
   options.interior_point = file.interior_point;
   if (!command.interior_point.empty()) {

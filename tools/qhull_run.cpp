@@ -14,6 +14,7 @@
 #include "tools/attached_points.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
 #include "tools/progress_line.h"
@@ -120,6 +121,7 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   FileBytes bytes = FileBytes::read(command.input_path);
   const std::string invocation = invocation_of(bytes.view(), command);
   const PointFile file = parse_points(std::move(bytes), command.input_path);
+  check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   PointSet scaled;
   PointView points = file.view();
   if (scales_points(command)) {

@@ -12,6 +12,7 @@
 #include "tools/command_options.h"
 #include "tools/hull_options.h"
 #include "tools/interrupt.h"
+#include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/progress_line.h"
 #include "tools/view_html.h"
@@ -103,6 +104,7 @@ ViewedHull load(const ViewArguments& arguments, int& exit_code) {
 
 void write_picture(const ViewArguments& arguments, int& exit_code) {
   const bool html = is_html(arguments.output_path);
+  check_outputs_are_writable({{"--output", arguments.output_path}}, {arguments.source_path});
   // Opened first: that it cannot be written is said before the hull is computed.
   OutputFile file(arguments.output_path);
   ViewedHull viewed = load(arguments, exit_code);

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Input and usage that cannot be honoured: one line on stderr, exit code 1, and no file written or changed."""
 
+import subprocess
+
 import numpy
-from program import DIAMONDS, fresh_folder, one_error_line, run, run_tests
+from program import DIAMONDS, PATIENCE, PROGRAM, fresh_folder, one_error_line, run, run_tests
 
 OUTPUTS = ["--planes", "planes.ine", "--vertices", "vertices.npy", "--report", "report.json"]
 
@@ -117,6 +119,61 @@ def test_places_that_cannot_be_written_are_said_before_the_work():
         for option in ("--planes", "--vertices", "--report"):
             one_error_line(run("hull", DIAMONDS, option, path, exit_code=1), "file-write")
     assert not list(folder.iterdir())
+
+
+def test_the_input_is_never_written_over():
+    folder = fresh_folder("input_kept")
+    (folder / "sub").mkdir()
+    points = folder / "points.csv"
+    points.write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+    content = points.read_bytes()
+    (folder / "link.csv").symlink_to(points)
+    (folder / "halfspaces.ine").write_bytes(b"H-representation\nbegin\n3 3 real\n0 1 0\n0 0 1\n1 -1 -1\nend\n")
+    (folder / "points.html").write_bytes(content)
+    names = [points, folder / "link.csv", folder / "sub" / ".." / "points.csv"]
+    usages = [["hull", one, option, other]
+              for option in ("--planes", "--vertices", "--report") for one in names for other in names]  # fmt: skip
+    for command in ("extreme", "largest"):
+        for option in ("--planes", "--vertices", "--report"):
+            usages.append([command, points, option, names[2]])
+    halfspaces, page = folder / "halfspaces.ine", folder / "points.html"
+    usages += [
+        ["extreme", points, "--keep", 3, "--distances", points],
+        ["hull", points, "--curve", folder / "points"],
+        ["hull", "--points-sharded", folder / "p*.csv", "--planes", points],
+        ["intersect", halfspaces, "--vertices", halfspaces], ["intersect", halfspaces, "--report", halfspaces],
+        ["contains", halfspaces, folder / "plane.csv", "-o", halfspaces],
+        ["contains", halfspaces, folder / "plane.csv", "-o", folder / "plane.csv"],
+        ["view", page, "-o", folder / "sub" / ".." / "points.html"],
+        ["qhull", f"TI {points} TO {folder}/link.csv n"], ["qhalf", f"Fp TI {halfspaces} TO {halfspaces}"],
+    ]  # fmt: skip
+    (folder / "plane.csv").write_text("0,0\n1,0\n0,1\n")
+    before = {path: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    for usage in usages:
+        done = run(*usage, exit_code=1)
+        one_error_line(done, "usage")
+        assert "which is the input" in done.stderr and "expected another file" in done.stderr, done.stderr
+        assert {path: path.read_bytes() for path in folder.iterdir() if path.is_file()} == before, usage
+    # Standard input redirected from a file is that file; a pipe is none, and /dev/null may be both.
+    with points.open() as stream:
+        words = [PROGRAM, "hull", "-", "--planes", str(points)]
+        done = subprocess.run(words, stdin=stream, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    assert done.returncode == 1 and "which is the input standard input" in done.stderr, done
+    assert points.read_bytes() == content
+    run("hull", "-", "--planes", folder / "new.txt", stdin=content)
+    one_error_line(run("hull", "/dev/null", "--planes", "/dev/null", exit_code=1), "empty-input")
+
+
+def test_outputs_with_one_place_under_two_names():
+    folder = fresh_folder("two_names")
+    (folder / "sub").mkdir()
+    (folder / "old.txt").write_text("old")
+    (folder / "link.txt").symlink_to(folder / "old.txt")
+    for one, other in (("old.txt", "link.txt"), ("new.txt", "sub/../new.txt"), ("new.txt", "./new.txt")):
+        done = run("hull", DIAMONDS, "--planes", f"{folder}/{one}", "--vertices", f"{folder}/{other}", exit_code=1)
+        one_error_line(done, "usage")
+        assert "found both on" in done.stderr, done.stderr
+    assert (folder / "old.txt").read_text() == "old" and not (folder / "new.txt").exists()
 
 
 def test_a_full_disk_is_an_error():
