@@ -61,8 +61,9 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
   // Once a point was shifted simplices will be merged, which takes memory.
   work_.options.most_table_rows = limits_.most_rows(work_, frame_.dimension, point_bytes());
+  const std::uint64_t done = proven_count_ + work_.counters.insertions;
   const std::uint64_t to_prove =
-      points_.rows - std::min<std::uint64_t>(points_.rows, proven_count_ + work_.counters.insertions);
+      options_.wants_partial ? points_.rows - std::min<std::uint64_t>(points_.rows, done) : 0;
   return limits_.is_time_up(work_, ball_, to_prove) ? GrowthStop::kTimeLimit : GrowthStop::kNoOutsidePoints;
 }
 
@@ -138,6 +139,7 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
       report_counters();
       return true;
     }
+    if (hull_.status != HullStatus::kComplete && !options_.wants_partial) break;
     phase_start = Clock::now();
     tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =

@@ -74,6 +74,7 @@ class HullBuilder {
       make_segment();
     } else if (is_exact) {
       if (grow_or_describe()) return std::move(hull_);
+      if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
     } else {
       approximate(factor);
     }

@@ -56,6 +56,9 @@ struct HullOptions {
   bool certifies_planes = true;
   /// Simplices will be asked for: the hull is not looked for by whole facets (core/double_description.h).
   bool wants_simplices = false;
+  /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
+  /// once.
+  bool wants_partial = true;
   bool unit_cube = false;  ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only

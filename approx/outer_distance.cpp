@@ -10,6 +10,7 @@
 #include "approx/outer_volume.h"
 #include "approx/subspace.h"
 #include "core/dense_views.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
@@ -36,14 +37,17 @@ Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
   return columns;
 }
 
-/// No point of the hull on the ray through the vertex is further from it than this.
-std::vector<double> most_distances(const Eigen::Map<const RowMatrix>& vertices,
-                                   const PlanesAboutOrigin& hull_planes) {
+/// No point of the hull on the ray through a vertex is further from it than this; nothing once time is up.
+template <class IsLate>
+std::optional<std::vector<double>> most_distances(const Eigen::Map<const RowMatrix>& vertices,
+                                                  const PlanesAboutOrigin& hull_planes,
+                                                  const IsLate& is_late) {
   const Eigen::Map<const RowMatrix> normals = as_rows(hull_planes.normals, hull_planes.rank);
   const Eigen::Map<const Eigen::VectorXd> heights(hull_planes.heights.data(), normals.rows());
   std::vector<double> most(static_cast<std::size_t>(vertices.rows()));
   Eigen::MatrixXd products;
   for (Index begin = 0; begin < vertices.rows(); begin += kVertexBlock) {
+    if (is_late()) return std::nullopt;
     const Index used = std::min(kVertexBlock, vertices.rows() - begin);
     products.noalias() = normals * vertices.middleRows(begin, used).transpose();
     for (Index k = 0; k < used; ++k) {
@@ -58,17 +62,24 @@ std::vector<double> most_distances(const Eigen::Map<const RowMatrix>& vertices,
 }  // namespace
 
 OuterDistance outer_distance(const Hull& hull, const PointView& points, std::span<const FacetId> facets,
-                             std::uint64_t max_simplices, unsigned threads, const std::stop_token& stop) {
+                             std::uint64_t max_simplices, unsigned threads, const std::stop_token& stop,
+                             double max_seconds) {
   if (hull.rank == 0) return {0.0, 0.0, ""};
+  const Clock::time_point start = Clock::now();
+  const auto is_late = [&] { return max_seconds > 0.0 && seconds_since(start) > max_seconds; };
+  const OuterDistance late{std::nullopt, 0.0, "it would take longer than the limit on seconds"};
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   if (!find_open_direction(planes.normals, planes.rank).bounded)
     return {std::nullopt, 0.0, "the outer planes do not bound a region"};
   HullOptions options;
+  options.wants_partial = false;
   options.limits.max_facets = max_simplices;
+  options.limits.max_seconds = max_seconds;
   options.threads = threads;
   options.stop = stop;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, 0.0, "interrupted"};
+  if (polytope.status == HullStatus::kTimeLimit) return late;
   if (polytope.status != HullStatus::kComplete || !polytope.bounded) {
     return {std::nullopt, 0.0,
             "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
@@ -93,7 +104,9 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
                                   hull.input_per_length_unit(facet) / all.heights[row]);
   }
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
-  std::vector<double> most = most_distances(vertices, all);
+  std::optional<std::vector<double>> found = most_distances(vertices, all, is_late);
+  if (!found) return late;
+  std::vector<double>& most = *found;
   for (std::size_t vertex = 0; vertex < most.size(); ++vertex)
     most[vertex] += margin * vertices.row(static_cast<Index>(vertex)).norm();
   std::vector<std::uint32_t> order(most.size());
@@ -104,7 +117,7 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
   const Eigen::MatrixXd columns = vertex_columns(hull, points);
   OuterDistance result{0.0, 0.0, ""};
   for (std::size_t k = 0; k < order.size() && most[order[k]] > *result.distance; ++k) {
-    if (k == most_nearest) {
+    if (k == most_nearest || is_late()) {
       result.distance = most[order[k]];
       break;
     }

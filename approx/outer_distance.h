@@ -29,12 +29,13 @@ struct OuterDistance {
 ///          order of the second the nearest points of the hull are computed (hull_distance.h), until no other
 ///          vertex can be further. After 2,000 of them, with max_simplices perhaps fewer, the bound of the
 ///          rest is taken. Rounding of the vertices themselves is not part of the bounds.
-/// Returns  no distance where outer_volume has no volume, and with max_simplices when facets times vertices
+/// Returns  no distance where outer_volume has no volume or would not in max_seconds (0: no limit), and with
+/// max_simplices when facets times vertices
 ///          times rank are above 4e9.
 /// Cost     as outer_volume, and facets x vertices x rank multiplications.
 OuterDistance outer_distance(const Hull& hull, const PointView& points, std::span<const FacetId> facets,
                              std::uint64_t max_simplices, unsigned threads = 0,
-                             const std::stop_token& stop = {});
+                             const std::stop_token& stop = {}, double max_seconds = 0.0);
 
 /// Chooses `count` facets such that no vertex of the polytope below their outer planes is far above the
 /// hull's facets; it is bounded.

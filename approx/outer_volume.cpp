@@ -11,6 +11,7 @@
 #include "approx/plane_polytope.h"
 #include "approx/subspace.h"
 #include "core/blocks.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kSecondsPerFace = 3e-8;
 constexpr double kSecondsPerCreated = 1e-7;
 constexpr double kAffordableSeconds = 0.02;
 constexpr double kAffordableShare = 0.2;
+
+constexpr const char* kOutOfTime = "it would take longer than the limit on seconds";
 
 /// Faces of all dimensions that contain a vertex of a simple polytope.
 double faces_at_vertex(std::size_t rank) { return std::ldexp(1.0, static_cast<int>(rank)); }
@@ -108,8 +111,9 @@ PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const 
 }
 
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
-                         unsigned threads, const std::stop_token& stop) {
+                         unsigned threads, const std::stop_token& stop, double max_seconds) {
   if (hull.rank == 0) return {0.0, ""};
+  const Clock::time_point start = Clock::now();
   constexpr double kNarrow = 1.0 + 1e-10;
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
   const double scale =
@@ -130,16 +134,27 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
     return {std::nullopt, "the outer planes do not bound a region"};
   }
   HullOptions options;
+  options.wants_partial = false;
   options.limits.max_facets = max_simplices;
   options.threads = threads;
   options.stop = stop;
+  const auto spend_time = [&] {
+    if (max_seconds > 0.0) options.limits.max_seconds = std::max(max_seconds - seconds_since(start), 1e-9);
+  };
+  spend_time();
   if (max_simplices > 0 && seems_larger(planes, max_simplices, options)) return too_many;
+  spend_time();
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
+  if (polytope.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
   if (polytope.status != HullStatus::kComplete) return too_many;
   if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
+  spend_time();
+  const PolytopeMeasure measure = measure_polytope(planes, polytope, options);
+  if (measure.status != HullStatus::kComplete)
+    return {std::nullopt, measure.status == HullStatus::kTimeLimit ? kOutOfTime : "interrupted"};
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
-  return {std::max(hull.volume, std::min(most, measure_polytope(planes, polytope).volume)), ""};
+  return {std::max(hull.volume, std::min(most, measure.volume)), ""};
 }
 
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits) {

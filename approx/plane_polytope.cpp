@@ -32,6 +32,7 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
   planes_only.wants_simplices = true;
   const Hull hull = convex_hull(PointView::row_major(dual.data(), count, rank), planes_only);
   polytope.status = hull.status;
+  if (polytope.status != HullStatus::kComplete && !options.wants_partial) return polytope;
   polytope.bounded = hull.rank == rank;
   if (!polytope.bounded) return polytope;
   polytope.vertices.resize(hull.facet_count() * rank);

@@ -40,15 +40,16 @@ struct PlanePolytope {
 /// Intersects the halfspaces below the planes.
 ///
 /// Limits  options.limits.max_facets bounds the simplices; status says when it was hit: then the polytope is
-///         that of some of the planes.
+///         that of some of the planes; nothing but the status is set without options.wants_partial.
 /// Throws  Error as convex_hull does.
 /// Cost    that of the hull of the dual points.
 PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const HullOptions& options);
 
 /// What the polytope measures.
 struct PolytopeMeasure {
-  double volume = 0.0;  ///< of dimension rank
-  double area = 0.0;    ///< of all facets, of dimension rank - 1
+  HullStatus status = HullStatus::kComplete;  ///< kTimeLimit, kInterrupted: nothing is measured
+  double volume = 0.0;                        ///< of dimension rank
+  double area = 0.0;                          ///< of all facets, of dimension rank - 1
 };
 
 /// Volume and area.
@@ -58,9 +59,11 @@ struct PolytopeMeasure {
 ///         of the face, so that no term is negative and nothing cancels. Faces are sets of planes; each is
 ///         computed once (Bueler, Enge, Fukuda. Exact volume computation for polytopes: a practical study.
 ///         Polytopes - Combinatorics and Computation, 2000).
+/// Limits  options.limits.max_seconds, options.stop.
 /// Error   2e-13 relative was the largest seen on polytopes whose volume is known.
 /// Cost    time and memory by the faces of all dimensions, 2^rank a simplex at most: about 7 microseconds a
 ///         vertex in 6-d, 25 in 8-d.
-PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope);
+PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope,
+                                 const HullOptions& options = {});
 
 }  // namespace ndhull

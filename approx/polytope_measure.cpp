@@ -1,6 +1,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
@@ -160,8 +162,9 @@ class FaceFrame {
 
 class Measurer {
  public:
-  Measurer(const PlanesAboutOrigin& planes, const PlanePolytope& polytope)
-      : planes_(planes), polytope_(polytope), rank_(planes.rank) {
+  Measurer(const PlanesAboutOrigin& planes, const PlanePolytope& polytope, const HullOptions& options,
+           Clock::time_point start)
+      : planes_(planes), polytope_(polytope), options_(options), start_(start), rank_(planes.rank) {
     for (std::size_t id = 0; id < planes.heights.size(); ++id) plane_hash_.push_back(mixed(id));
   }
 
@@ -171,12 +174,20 @@ class Measurer {
     while (level.width > 0) {
       if (level.width == 1) result.area = std::accumulate(level.measure.begin(), level.measure.end(), 0.0);
       level = next(level);
+      if (is_over()) return {is_late_ ? HullStatus::kTimeLimit : HullStatus::kInterrupted, 0.0, 0.0};
     }
     result.volume = level.measure.empty() ? 0.0 : level.measure[0];
     return result;
   }
 
  private:
+  /// Has work to end? What is made after that is not used.
+  bool is_over() const {
+    const double limit = options_.limits.max_seconds;
+    if (!is_late_ && limit > 0.0 && seconds_since(start_) > limit) is_late_ = true;
+    return is_late_ || options_.stop.stop_requested();
+  }
+
   FaceLevel vertices() const {
     FaceLevel level;
     level.width = rank_;
@@ -200,7 +211,7 @@ class Measurer {
     FaceIndex index(higher, level.size());
     parents.resize(level.size() * level.width);
     std::vector<FaceKey> keys;
-    for (std::size_t begin = 0; begin < level.size(); begin += kFacesAhead) {
+    for (std::size_t begin = 0; begin < level.size() && !is_over(); begin += kFacesAhead) {
       keys.clear();
       for (std::size_t face = begin; face < std::min(begin + kFacesAhead, level.size()); ++face) {
         const std::uint32_t* const row = level.row(face);
@@ -229,6 +240,7 @@ class Measurer {
     const std::size_t dimension = rank_ - higher.width;
     std::vector<double> terms(parents.size(), 0.0);
     for_each_block(level.size(), 1024, [&](std::size_t begin, std::size_t end) {
+      if (is_over()) return;
       FaceFrame<D> frame(polytope_);
       for (std::size_t face = begin; face != end; ++face) {
         if (level.measure[face] == 0.0) continue;
@@ -248,6 +260,7 @@ class Measurer {
   FaceLevel next(const FaceLevel& level) const {
     std::vector<std::uint32_t> parents;
     FaceLevel higher = faces_above(level, parents);
+    if (is_over()) return higher;
     const std::size_t dimension = rank_ - higher.width;
     const std::vector<double> terms =
         call_with_dimension<1, kMaxRank>(rank_, [&](auto d) { return terms_of<d>(level, higher, parents); });
@@ -272,6 +285,9 @@ class Measurer {
 
   const PlanesAboutOrigin& planes_;
   const PlanePolytope& polytope_;
+  const HullOptions& options_;
+  Clock::time_point start_;
+  mutable std::atomic<bool> is_late_ = false;
   std::size_t rank_;
   std::vector<std::uint64_t> plane_hash_;
 };
@@ -280,22 +296,26 @@ class Measurer {
 constexpr std::size_t kSimplicesOfVertex = 4;
 
 /// Of the hull of the vertices, when that is no larger than the dual hull.
-std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePolytope& polytope) {
+std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePolytope& polytope,
+                                               const HullOptions& limits) {
   const std::size_t vertices = polytope.vertex_count(rank), simplices = polytope.vertex_of.size();
   if (rank < 2 || simplices < kSimplicesOfVertex * vertices) return std::nullopt;
   HullOptions options;
-  options.limits.max_facets = simplices;
+  options.limits = {.max_facets = simplices, .max_seconds = limits.limits.max_seconds};
+  options.stop = limits.stop;
   const Hull hull = convex_hull(PointView::row_major(polytope.vertices.data(), vertices, rank), options);
   if (hull.status != HullStatus::kComplete || hull.rank < rank) return std::nullopt;
-  return PolytopeMeasure{hull.volume, hull.area};
+  return PolytopeMeasure{HullStatus::kComplete, hull.volume, hull.area};
 }
 
 }  // namespace
 
-PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope) {
+PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope,
+                                 const HullOptions& options) {
   NDHULL_CHECK(polytope.bounded);
-  if (const auto measure = measure_by_hull(planes.rank, polytope)) return *measure;
-  return Measurer(planes, polytope).measure();
+  const Clock::time_point start = Clock::now();
+  if (const auto measure = measure_by_hull(planes.rank, polytope, options)) return *measure;
+  return Measurer(planes, polytope, options, start).measure();
 }
 
 }  // namespace ndhull

@@ -47,8 +47,10 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
           "write facets against certified width, from this hull to coarser ones: FILE.csv and FILE.svg")
       ->type_name("FILE")
       ->check(path_name());
-  command.add_flag("--outer-volume", request.outer_volume,
-                   "volume below the outer planes however long it takes; default: when it costs little");
+  command.add_flag(
+      "--outer-volume", request.outer_volume,
+      "volume below the outer planes, whatever it takes within --max-seconds; default: when it costs "
+      "little");
   command
       .add_option("--format", arguments.format,
                   "print Qhull's text formats, any of n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s")

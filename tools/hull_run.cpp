@@ -125,8 +125,16 @@ std::size_t kept_file_bytes(const Limits& limits) {
                                       : std::min<std::size_t>(kKeptFileBytes, limits.max_memory_bytes / 16);
 }
 
+/// [s] of what is left of the limit for one more number in the report, since the rest has to be written too;
+/// 0: no limit.
+double seconds_for_measure(const Limits& limits, Clock::time_point start) {
+  constexpr double kShare = 0.8;
+  return kShare * limits_left(limits, seconds_since(start), 0).max_seconds;
+}
+
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
-OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context) {
+OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context,
+                            Clock::time_point start) {
   const bool is_complete = hull.status == HullStatus::kComplete || hull.status == HullStatus::kFacetLimit;
   if (!is_complete && !request.outer_volume) return {std::nullopt, "a limit ended growth"};
   std::span<const FacetId> facets;
@@ -135,7 +143,8 @@ OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const 
     facets = context.selection->facets;
   }
   const std::uint64_t limit = request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
-  return outer_volume(hull, facets, limit, context.options.threads, context.options.stop);
+  return outer_volume(hull, facets, limit, context.options.threads, context.options.stop,
+                      seconds_for_measure(request.options.limits, start));
 }
 
 void write_report(const std::string& path, const Hull& hull, const ReportContext& context) {
@@ -222,15 +231,16 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   if (!request.report_path.empty() || is_summary) {
     progress.show_phase("outer volume");
     const Clock::time_point volume_start = Clock::now();
-    arena.execute([&] { outer = outer_volume_of(request, hull, context); });
+    arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });
     context.outer_volume_seconds = seconds_since(volume_start);
     context.outer_volume = &*outer;
     if (selection && selection->bounded) {
       const std::uint64_t limit =
           request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
       arena.execute([&] {
-        outer_reach = outer_distance(hull, points, selection->facets, limit, context.options.threads,
-                                     context.options.stop);
+        outer_reach =
+            outer_distance(hull, points, selection->facets, limit, context.options.threads,
+                           context.options.stop, seconds_for_measure(request.options.limits, start));
       });
       context.outer_distance = &*outer_reach;
     }

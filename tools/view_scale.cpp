@@ -6,7 +6,19 @@
 #include <cmath>
 
 namespace ndhull {
+namespace {
+
+/// [ratio] of the largest value: what differs by less is the same but for rounding, and its ticks would be.
+constexpr double kSame = 1e-9;
+
+bool are_same(double low, double high) {
+  return !(high - low > kSame * std::max(std::abs(low), std::abs(high)));
+}
+
+}  // namespace
+
 std::vector<Tick> round_ticks(double low, double high, std::size_t count) {
+  if (are_same(low, high) || !std::isfinite(high - low)) return {{low, three_digits(low)}};
   const double rough = (high - low) / static_cast<double>(count);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * power;
@@ -41,13 +53,19 @@ Colour lit(const Colour& colour, double brightness) {
 }
 
 ColourScale::ColourScale(std::span<const double> values, std::string_view title) : title_(title) {
-  if (values.empty()) return;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  low_ = *least;
-  high_ = *most;
+  bool is_first = true;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low_ = is_first ? value : std::min(low_, value);
+    high_ = is_first ? value : std::max(high_, value);
+    is_first = false;
+  }
 }
 
+bool ColourScale::is_constant() const { return are_same(low_, high_); }
+
 double ColourScale::place_of(double value) const {
+  if (!std::isfinite(value)) return 1.0;
   if (is_constant()) return 0.5;
   return std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
 }

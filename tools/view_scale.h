@@ -15,7 +15,8 @@ struct Tick {
   std::string label;
 };
 
-/// About `count` multiples of 1, 2 or 5 times a power of ten in low .. high. Precondition: low < high.
+/// About `count` multiples of 1, 2 or 5 times a power of ten in low .. high; low alone where both are the
+/// same but for rounding.
 std::vector<Tick> round_ticks(double low, double high, std::size_t count);
 
 /// A number for people: three digits, and powers of ten as in 1.2e-14.
@@ -32,11 +33,12 @@ class ColourScale {
  public:
   ColourScale() = default;
   /// Linear from the least to the largest of `values`: what is asked of widths is where the large ones are.
-  /// Without values, or when all are equal, everything has the colour of the middle.
+  /// Without values, or when all are equal but for rounding, everything has the colour of the middle. What is
+  /// infinite has that of the end.
   ColourScale(std::span<const double> values, std::string_view title);
 
   const std::string& title() const { return title_; }
-  bool is_constant() const { return low_ >= high_; }
+  bool is_constant() const;
   /// 0 .. 1: where the value is on the scale.
   double place_of(double value) const;
   Colour colour_of(double value) const { return colour_at(place_of(value)); }

@@ -83,6 +83,16 @@ def test_open_selections_are_said_and_bounded_ones_hold_every_point():
         assert report["outer_volume"] > report["volume"] and "outer_volume_reason" not in report
 
 
+def test_the_limit_on_seconds_is_for_the_outer_volume_too():
+    folder = fresh_folder("outer_limit")
+    run("generate", "gaussian", "-d", 9, "-n", 25, "--seed", 3, "-o", folder / "points.npy")
+    for target in (["--width", "5%"], ["--largest", 1000], ["--largest", 400, "--bounded"]):
+        report = report_of(folder / "points.npy", *target, "--outer-volume", "--max-seconds", 1, timeout=20)
+        assert report["outer_volume"] is None and report["status"] == "complete", target
+        assert "limit on seconds" in report["outer_volume_reason"], report["outer_volume_reason"]
+        assert report["volume"] > 0
+
+
 def test_the_outer_volume_is_that_of_the_intersection():
     folder = fresh_folder("volume")
     points = folder / "points.npy"

@@ -219,6 +219,18 @@ def test_the_page_turns_in_a_browser_without_errors():
         assert "facet" in seen["tip"] or "outer shell" in seen["tip"], seen
 
 
+def test_shadows_of_hulls_as_thin_as_rounding_end():
+    # Their outer shells are 1e10 times as far out as the hull, all by the same factor but for rounding.
+    folder = fresh_folder("thin")
+    for seed in range(4, 8):
+        draw = numpy.random.default_rng(seed).standard_normal
+        points = draw((8, 6)) * [1, 1, 1, 1, 1, 1e-13]
+        numpy.save(folder / "thin.npy", points @ numpy.linalg.qr(draw((6, 6)))[0])
+        for name in ("thin.svg", "thin.html"):
+            run("view", folder / "thin.npy", "--shadow", "--width", "10%", "-o", folder / name, timeout=20)
+        assert "nan" not in (folder / "thin.svg").read_text()
+
+
 def test_what_cannot_be_drawn_is_one_line_and_no_file():
     folder = fresh_folder("bad")
     points = sample("30 s D5 t1", folder / "points.npy")

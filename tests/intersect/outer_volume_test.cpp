@@ -132,6 +132,27 @@ TEST(OuterVolumeExample, ARequestToStopIsAReason) {
   EXPECT_EQ(outer.reason, "interrupted");
 }
 
+TEST(OuterVolumeExample, TheLimitOnSecondsIsAReason) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  const OuterVolume outer = outer_volume(hull, all_facets(hull), 0, 1, {}, 1e-9);
+  EXPECT_FALSE(outer.volume);
+  EXPECT_EQ(outer.reason, "it would take longer than the limit on seconds");
+  EXPECT_TRUE(outer_volume(hull, all_facets(hull), 0, 1, {}, 100.0).volume);
+}
+
+TEST(OuterVolumeExample, MeasuringEndsWithTheLimitToo) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  const PlanesAboutOrigin planes = outer_planes_about_interior(hull, {});
+  const PlanePolytope polytope = intersect_about_origin(planes, {});
+  EXPECT_EQ(measure_polytope(planes, polytope, {.limits = {.max_seconds = 1e-9}}).status,
+            HullStatus::kTimeLimit);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(measure_polytope(planes, polytope, {.stop = source.get_token()}).status,
+            HullStatus::kInterrupted);
+  EXPECT_EQ(measure_polytope(planes, polytope).status, HullStatus::kComplete);
+}
+
 TEST(OuterVolumeLaw, WhatIsAffordableGrowsWithTheHullAndShrinksWithTheRankAndTheMemory) {
   std::uint64_t last = UINT64_MAX;
   for (std::size_t d = 2; d <= 9; ++d) {
