@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
-#include "approx/frame_planes.h"
+#include "approx/near_copies.h"
+#include "approx/parting_planes.h"
 #include "approx/ray_shooting.h"
 #include "core/error.h"
-#include "core/plane_value.h"
 #include "core/stopwatch.h"
 
 namespace ndhull {
@@ -21,76 +22,131 @@ constexpr std::size_t kBatch = 2048;
 /// other among them, by rounding. [ratio to the longest point] A quarter of what tells inside from outside:
 /// planes part vertices by more.
 constexpr double kNear = 2.5e-13;
+/// What is so near to a vertex is none: it is outside the hull of the others by no more than tells inside
+/// from outside. [ratio to the longest point]
+constexpr double kAsGoodAsEqual = 2e-12;
 
-/// A vertex and the plane in the frame that parts it: a.y = level.
-struct FoundVertex {
-  std::uint32_t id;
-  std::vector<double> plane;
-  double level;
+/// Points far from the origin, seen from one of them: no point inside a hull that is a few roundings of its
+/// coordinates thick has coordinates, unless they are taken off first.
+struct NearOrigin {
+  std::vector<double> origin;  // what is taken off
+  std::vector<double> coordinates;
+  PointView view;
+
+  explicit NearOrigin(const PointView& points) : origin(points.dimension, 0.0), view(points) {
+    if (!is_far(points)) return;
+    const std::size_t dimension = points.dimension;
+    std::vector<double> first(dimension);
+    points.copy_row(0, first.data());
+    coordinates.resize(points.rows * dimension);
+    for (std::size_t row = 0; row < points.rows; ++row) {
+      for (std::size_t k = 0; k < dimension; ++k) {
+        const double x = points.at(row, k), difference = x - first[k], back = x - difference;
+        const double rounding = (x - (difference + back)) + (back - first[k]);
+        if (rounding != 0.0) return;  // the points would be others
+        coordinates[row * dimension + k] = difference;
+      }
+    }
+    const auto near = PointView::row_major(coordinates.data(), points.rows, dimension);
+    // What is flat but for the rounding of its coordinates stays so.
+    if (fit_frame(near).rank != fit_frame(points).rank) return;
+    origin = first;
+    view = near;
+  }
+
+ private:
+  /// Is a column far from 0 for its extent?
+  static bool is_far(const PointView& points) {
+    constexpr double kFar = 16.0;
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      double low = HUGE_VAL, high = -HUGE_VAL;
+      for (std::size_t row = 0; row < points.rows; ++row) {
+        low = std::min(low, points.at(row, k));
+        high = std::max(high, points.at(row, k));
+      }
+      if (std::max(-low, high) > kFar * (high - low)) return true;
+    }
+    return false;
+  }
 };
 
 /// The two ends of points on a line, parted from the rest half way to the next point.
-std::vector<FoundVertex> ends_of_segment(const RayShooter& shooter) {
+std::vector<PartingPlane> ends_of_segment(const NearOrigin& points, const RayShooter& shooter) {
   std::vector<std::uint32_t> order(shooter.distinct_count());
   for (std::size_t row = 0; row < order.size(); ++row) order[row] = shooter.distinct_point(row);
   const auto at = [&shooter](std::uint32_t id) { return *shooter.points().row(id); };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
+  const PartingPlaneMap to_input(points.view, shooter.frame(), points.origin);
+  const auto end = [&](std::uint32_t id, std::uint32_t next, double sign) {
+    const double level = 0.5 * sign * (at(id) + at(next)), gap = 0.5 * sign * (at(id) - at(next));
+    return to_input.map(id, {&sign, 1}, level, gap);
+  };
   const std::size_t last = order.size() - 1;
-  return {{order[0], {-1.0}, -0.5 * (at(order[0]) + at(order[1]))},
-          {order[last], {1.0}, 0.5 * (at(order[last]) + at(order[last - 1]))}};
+  return {end(order[0], order[1], -1.0), end(order[last], order[last - 1], 1.0)};
 }
 
-class ExtremeSearch {
+/// Are points vertices? Walks of a shooter, and what their ends prove.
+class WalkEnds {
  public:
-  ExtremeSearch(RayShooter& shooter, const ExtremeOptions& options, Clock::time_point start)
-      : shooter_(shooter), options_(options), start_(start), is_doubtful_(shooter.point_count(), 1) {}
-
-  /// Asks about every distinct point, the longest first: those are vertices more often than others.
-  void run(ExtremePoints& result) {
-    const std::size_t rank = shooter_.frame().rank;
-    const std::size_t count = shooter_.distinct_count();
-    std::size_t first = 0;
-    for (; first < count && !is_over(result); first += kBatch) {
-      std::vector<WalkTask> tasks;
-      for (std::size_t row = first; row < std::min(first + kBatch, count); ++row) {
-        const std::uint32_t id = shooter_.distinct_point(row);
-        const double* const point = shooter_.points().row(id);
-        tasks.push_back({.direction = {point, point + rank}, .skip = id, .asks_inside = true});
-      }
-      std::vector<WalkResult> walks = shooter_.walk(tasks, options_.stop);
-      for (std::size_t row = 0; row < tasks.size(); ++row) note(tasks[row].skip, walks[row], result);
-      if (options_.progress) {
-        options_.progress("vertices " + std::to_string(found_.size()) + ", points left " +
-                          std::to_string(count - std::min(first + kBatch, count)));
-      }
-    }
-    result.open_points += first < count ? count - first : 0;
-    count_inside(result);
-  }
-
-  std::vector<FoundVertex>& found() { return found_; }
-
- private:
   struct InsidePoint {
     std::uint32_t id;
     std::vector<std::uint32_t> basis;
     std::vector<double> weights;
   };
 
-  bool is_over(ExtremePoints& result) const {
-    if (options_.stop.stop_requested()) result.status = ExtremeStatus::kInterrupted;
-    if (options_.max_seconds > 0.0 && seconds_since(start_) > options_.max_seconds) {
-      result.status = ExtremeStatus::kTimeLimit;
-    }
-    return result.status != ExtremeStatus::kComplete;
+  /// `origin` was taken off the points.
+  WalkEnds(const PointView& points, std::span<const double> origin, RayShooter& shooter)
+      : shooter_(shooter),
+        to_input_(points, shooter.frame(), origin),
+        is_doubtful_(shooter.point_count(), 1) {
+    if (shooter.distinct_count() < shooter.point_count())
+      copies_apart_ = kNear * shooter.points().largest_length;
   }
 
-  void note(std::uint32_t id, WalkResult& walk, ExtremePoints& result) {
+  /// Asks about points, whose ids are those of the shooter.
+  void ask(std::span<const std::uint32_t> ids, std::stop_token stop) {
+    const std::size_t rank = shooter_.frame().rank;
+    std::vector<WalkTask> tasks;
+    for (const std::uint32_t id : ids) {
+      const double* const point = shooter_.points().row(id);
+      tasks.push_back({.direction = {point, point + rank}, .skip = id, .asks_inside = true});
+    }
+    std::vector<WalkResult> walks = shooter_.walk(tasks, std::move(stop));
+    for (std::size_t row = 0; row < tasks.size(); ++row) note(ids[row], walks[row]);
+  }
+
+  /// Two points at a sharp corner can each be inside the hull of the others by rounding, by way of the other:
+  /// that proves nothing. What is a combination of such points, but for a small part, stays open.
+  void settle_inside() {
+    for (std::uint8_t& flag : is_doubtful_) flag = 0;
+    for (const InsidePoint& point : inside_) is_doubtful_[point.id] = 1;
+    for (std::size_t before = SIZE_MAX; inside_.size() < before;) {
+      before = inside_.size();
+      std::erase_if(inside_, [&](const InsidePoint& point) {
+        if (!is_proven(point)) return false;
+        is_doubtful_[point.id] = 0;
+        inside.push_back(point.id);
+        return true;
+      });
+    }
+    for (const InsidePoint& point : inside_) open.push_back(point.id);
+    inside_.clear();
+  }
+
+  /// It is known where this point is.
+  void take_as_known(std::uint32_t id) { is_doubtful_[id] = 0; }
+
+  std::vector<PartingPlane> found;
+  std::vector<std::uint32_t> inside, open;  // complete after settle_inside
+  bool was_stopped = false;
+
+ private:
+  void note(std::uint32_t id, WalkResult& walk) {
     switch (walk.end) {
       case WalkEnd::kInside: {
         InsidePoint point{id, std::move(walk.basis), std::move(walk.weights)};
         if (is_proven(point)) {
-          ++result.points_inside;
+          inside.push_back(id);
         } else {
           inside_.push_back(std::move(point));
         }
@@ -99,11 +155,14 @@ class ExtremeSearch {
       case WalkEnd::kOutside:
         shooter_.add_to_core(id);
         is_doubtful_[id] = 0;
-        found_.push_back({id, std::move(walk.plane), walk.level});
+        // What goes with another point may be higher than that by as much as both are apart.
+        walk.gap -= copies_apart_ * std::sqrt(std::inner_product(walk.plane.begin(), walk.plane.end(),
+                                                                 walk.plane.begin(), 0.0));
+        found.push_back(to_input_.map(id, walk.plane, walk.level, walk.gap));
         return;
-      case WalkEnd::kNotBegun: result.status = ExtremeStatus::kInterrupted; [[fallthrough]];
+      case WalkEnd::kNotBegun: was_stopped = true; return;
       case WalkEnd::kFacet:
-      case WalkEnd::kOpen: ++result.open_points; return;
+      case WalkEnd::kOpen: open.push_back(id); return;
     }
   }
 
@@ -119,77 +178,166 @@ class ExtremeSearch {
     return all - doubt >= kSmallPart * all;
   }
 
-  /// Two points at a sharp corner can each be inside the hull of the others by rounding, by way of the other:
-  /// that proves nothing. What is a combination of such points, but for a small part, stays open.
-  void count_inside(ExtremePoints& result) {
-    for (std::uint8_t& flag : is_doubtful_) flag = 0;
-    for (const InsidePoint& point : inside_) is_doubtful_[point.id] = 1;
-    for (std::size_t before = SIZE_MAX; inside_.size() < before;) {
-      before = inside_.size();
-      std::erase_if(inside_, [&](const InsidePoint& point) {
-        if (!is_proven(point)) return false;
-        is_doubtful_[point.id] = 0;
-        return true;
-      });
-      result.points_inside += before - inside_.size();
-    }
-    result.open_points += inside_.size();
-  }
-
   RayShooter& shooter_;
-  const ExtremeOptions& options_;
-  Clock::time_point start_;
-  std::vector<FoundVertex> found_;
+  PartingPlaneMap to_input_;
+  double copies_apart_ = 0.0;              // [distance in the frame]
   std::vector<std::uint8_t> is_doubtful_;  // one a point: not known to be a vertex
   std::vector<InsidePoint> inside_;        // not proven so far
 };
 
-void count_copies(const PointView& points, const RayShooter& shooter, ExtremePoints& result) {
-  const std::size_t dimension = result.dimension;
-  std::vector<std::uint32_t> vertex_of(points.rows, kNone);
-  for (std::uint32_t row = 0; row < result.vertices.size(); ++row)
-    vertex_of[result.vertices[row].value] = row;
-  result.copies.assign(result.vertices.size(), 1);
-  std::vector<double> first(dimension), other(dimension);
-  for (std::uint32_t id = 0; id < points.rows; ++id) {
-    const std::uint32_t copied = shooter.copy_of()[id], row = vertex_of[copied];
-    if (copied == id) continue;
-    points.copy_row(copied, first.data());
-    points.copy_row(id, other.data());
-    bool is_copy = first == other;
-    if (!is_copy && row != kNone) {
-      const std::span<const double> plane(result.planes.data() + row * (dimension + 1), dimension + 1);
-      const CentredPlane halfspace{plane.first(dimension), {}, plane[dimension], 0.0, 1.0};
-      is_copy = plane_sign(halfspace, other, DoubtfulSign::kExtendedThenExact) > 0.0;
-    }
-    if (!is_copy) ++result.points_inside;  // a distinct point, as near as it is
-    if (is_copy && row != kNone) ++result.copies[row];
+class ExtremeSearch {
+ public:
+  ExtremeSearch(const PointView& points, const ExtremeOptions& options, Clock::time_point start)
+      : points_(points), options_(options), start_(start), seen_(points), shooter_(seen_.view, kNear) {
+    stands_for_.assign(shooter_.copy_of().begin(), shooter_.copy_of().end());
+    is_inside_.assign(points.rows, 0);
   }
-}
 
-/// Planes in input units, in the order of the ids. Of points near to a vertex those above its plane are
-/// copies.
-void write_planes(const PointView& points, std::vector<FoundVertex>& found, const RayShooter& shooter,
-                  ExtremePoints& result) {
-  const Frame& frame = shooter.frame();
-  std::sort(found.begin(), found.end(),
-            [](const FoundVertex& a, const FoundVertex& b) { return a.id < b.id; });
-  const std::size_t dimension = frame.dimension;
-  const NormalMap to_input(frame);
-  std::vector<double> normal(dimension);
-  for (const FoundVertex& vertex : found) {
-    double length = 0.0;
-    std::vector<double> plane = vertex.plane;
-    to_input.map(plane.data(), 1, normal.data(), &length);
-    // a.y = level with a.y = length normal.(x - centre)
-    double offset = -vertex.level / length;
-    for (std::size_t k = 0; k < dimension; ++k) offset -= normal[k] * frame.centre[k];
-    result.vertices.push_back(PointId{vertex.id});
-    result.planes.insert(result.planes.end(), normal.begin(), normal.end());
-    result.planes.push_back(offset);
+  const Frame& frame() const { return shooter_.frame(); }
+  std::vector<double> interior_point() const {
+    std::vector<double> point = frame().centre;
+    for (std::size_t k = 0; k < point.size(); ++k) point[k] += seen_.origin[k];
+    return point;
   }
-  count_copies(points, shooter, result);
-}
+
+  void run(ExtremePoints& result) {
+    if (frame().rank == 1) {
+      planes_ = ends_of_segment(seen_, shooter_);
+      std::fill(is_inside_.begin(), is_inside_.end(), 1);
+      for (const PartingPlane& plane : planes_) is_inside_[plane.vertex] = 0;
+    } else {
+      const std::vector<std::uint32_t> open = ask_about_all(result);
+      if (!open.empty() && !is_over(result)) ask_again(open, result);
+    }
+    settle(result);
+    for (const PartingPlane& plane : planes_) {
+      result.vertices.push_back(PointId{plane.vertex});
+      result.planes.insert(result.planes.end(), plane.normal.begin(), plane.normal.end());
+      result.planes.push_back(plane.offset);
+      result.copies.push_back(static_cast<std::uint32_t>(1 + plane.above.size()));
+    }
+    count_others(result);
+  }
+
+ private:
+  bool is_late() const {
+    return options_.stop.stop_requested() ||
+           (options_.max_seconds > 0.0 && seconds_since(start_) > options_.max_seconds);
+  }
+
+  bool is_over(ExtremePoints& result) const {
+    if (!is_late()) return false;
+    result.status = options_.stop.stop_requested() ? ExtremeStatus::kInterrupted : ExtremeStatus::kTimeLimit;
+    return true;
+  }
+
+  /// The longest points first: those are vertices more often than others. Returns what stays open.
+  std::vector<std::uint32_t> ask_about_all(ExtremePoints& result) {
+    const std::size_t count = shooter_.distinct_count();
+    std::vector<std::uint32_t> ids(count);
+    for (std::size_t row = 0; row < count; ++row) ids[row] = shooter_.distinct_point(row);
+    WalkEnds walks(seen_.view, seen_.origin, shooter_);
+    std::size_t first = 0;
+    for (; first < count && !is_over(result); first += kBatch) {
+      walks.ask(std::span(ids).subspan(first, std::min(kBatch, count - first)), options_.stop);
+      if (options_.progress) {
+        options_.progress("vertices " + std::to_string(walks.found.size()) + ", points left " +
+                          std::to_string(count - std::min(first + kBatch, count)));
+      }
+    }
+    walks.settle_inside();
+    if (walks.was_stopped) result.status = ExtremeStatus::kInterrupted;
+    for (const std::uint32_t id : walks.inside) is_inside_[id] = 1;
+    planes_ = std::move(walks.found);
+    std::sort(walks.open.begin(), walks.open.end());
+    return std::move(walks.open);
+  }
+
+  /// Of open points that are as good as equal one is asked about, beside the vertices alone; what is as good
+  /// as equal to a vertex goes with it.
+  void ask_again(std::span<const std::uint32_t> open, ExtremePoints& result) {
+    const std::size_t rank = frame().rank, known = planes_.size();
+    std::vector<std::uint32_t> ids;
+    for (const PartingPlane& plane : planes_) ids.push_back(plane.vertex);
+    ids.insert(ids.end(), open.begin(), open.end());
+    std::vector<double> rows;
+    for (const std::uint32_t id : ids)
+      rows.insert(rows.end(), shooter_.points().row(id), shooter_.points().row(id) + rank);
+    const std::vector<std::uint32_t> first_of = find_near_copies(rows.data(), ids.size(), rank, near());
+    std::vector<std::uint32_t> among_ids(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(known)),
+        asked;
+    for (std::size_t i = known; i < ids.size(); ++i) {
+      stands_for_[ids[i]] = ids[first_of[i]];
+      if (first_of[i] != i) continue;
+      asked.push_back(static_cast<std::uint32_t>(among_ids.size()));
+      among_ids.push_back(ids[i]);
+    }
+    std::vector<double> coordinates(among_ids.size() * points_.dimension);
+    for (std::size_t i = 0; i < among_ids.size(); ++i)
+      seen_.view.copy_row(among_ids[i], coordinates.data() + i * points_.dimension);
+    const auto some = PointView::row_major(coordinates.data(), among_ids.size(), points_.dimension);
+    RayShooter among(some);
+    if (among.frame().rank != rank) return;
+    WalkEnds walks(some, seen_.origin, among);
+    for (std::uint32_t i = 0; i < known; ++i) walks.take_as_known(i);
+    walks.ask(asked, options_.stop);
+    walks.settle_inside();
+    if (walks.was_stopped) result.status = ExtremeStatus::kInterrupted;
+    for (const std::uint32_t i : walks.inside) is_inside_[among_ids[i]] = 1;
+    for (PartingPlane& plane : walks.found) {
+      plane.vertex = among_ids[plane.vertex];
+      plane.gap = 0.0;  // parted from those alone
+      planes_.push_back(std::move(plane));
+    }
+  }
+
+  void settle(ExtremePoints& result) {
+    std::sort(planes_.begin(), planes_.end(),
+              [](const PartingPlane& a, const PartingPlane& b) { return a.vertex < b.vertex; });
+    const std::span<const double> in_frame(shooter_.points().coordinates, points_.rows * frame().rank);
+    const bool is_whole = settle_planes(
+        points_, in_frame, near(), [this] { return is_late(); }, planes_);
+    if (!is_whole) is_over(result);
+  }
+
+  double near() const { return kAsGoodAsEqual * shooter_.points().largest_length; }
+
+  /// What is no vertex: a copy, inside, or open. What goes with another point is what that is.
+  void count_others(ExtremePoints& result) const {
+    std::vector<std::uint32_t> plane_of(points_.rows, kNone), copied(points_.rows, kNone);
+    for (std::uint32_t row = 0; row < planes_.size(); ++row) plane_of[planes_[row].vertex] = row;
+    for (std::uint32_t row = 0; row < planes_.size(); ++row)
+      for (const std::uint32_t id : planes_[row].above) copied[id] = row;
+    std::vector<double> point(points_.dimension), first(points_.dimension);
+    for (std::uint32_t id = 0; id < points_.rows; ++id) {
+      if (plane_of[id] != kNone || copied[id] != kNone) continue;
+      const std::uint32_t like = shooter_.copy_of()[id];
+      points_.copy_row(id, point.data());
+      points_.copy_row(like, first.data());
+      const bool is_equal = like != id && point == first;
+      const std::uint32_t root = stands_for_[like], row = plane_of[root];
+      if (row != kNone && !planes_[row].is_settled &&
+          ((is_equal && like == root) || is_above(planes_[row], point))) {
+        ++result.copies[row];
+      } else if (is_equal) {
+        continue;  // no distinct point
+      } else if (row != kNone || is_inside_[root] != 0) {
+        ++result.points_inside;
+      } else {
+        ++result.open_points;
+      }
+    }
+  }
+
+  const PointView& points_;
+  const ExtremeOptions& options_;
+  Clock::time_point start_;
+  NearOrigin seen_;
+  RayShooter shooter_;
+  std::vector<PartingPlane> planes_;
+  std::vector<std::uint32_t> stands_for_;  // itself, or the point that it is as good as equal to
+  std::vector<std::uint8_t> is_inside_;    // of what stands for itself
+};
 
 }  // namespace
 
@@ -209,11 +357,11 @@ ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& opti
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                              : static_cast<int>(options.threads));
   arena.execute([&] {
-    RayShooter shooter(points, kNear);
-    const Frame& frame = shooter.frame();
+    ExtremeSearch search(points, options, start);
+    const Frame& frame = search.frame();
     result.dimension = frame.dimension;
     result.rank = frame.rank;
-    result.interior_point = frame.centre;
+    result.interior_point = search.interior_point();
     if (frame.rank > kMaxExtremeRank) {
       throw Error(ErrorCode::kDimensionTooHigh,
                   "points span " + std::to_string(frame.rank) + " dimensions, expected at most " +
@@ -224,14 +372,7 @@ ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& opti
       result.copies.push_back(static_cast<std::uint32_t>(points.rows));
       return;
     }
-    ExtremeSearch search(shooter, options, start);
-    if (frame.rank == 1) {
-      search.found() = ends_of_segment(shooter);
-      result.points_inside = shooter.distinct_count() - 2;
-    } else {
-      search.run(result);
-    }
-    write_planes(points, search.found(), shooter, result);
+    search.run(result);
   });
   result.seconds = seconds_since(start);
   return result;

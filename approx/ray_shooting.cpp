@@ -284,7 +284,8 @@ void RayShooter::decide(Walker& walker) const {
     result.plane.assign(walker.walk.plane().data(), walker.walk.plane().data() + frame_.rank);
     result.gauge = walker.walk.gauge();
     // Products are below the query's threshold by more than half of what it leaves to the gauge.
-    result.level = result.gauge - 0.5 * all_.product_error() * walker.direction_length;
+    result.gap = 0.5 * all_.product_error() * walker.direction_length;
+    result.level = result.gauge - result.gap;
     return;
   }
   if (walker.walk.turns()) {  // no point beyond the ridge: the facet is all there is
@@ -309,6 +310,7 @@ void RayShooter::decide(Walker& walker) const {
   if (walker.asks_inside) {
     result.end = result.gauge > 1.0 + 2.0 * above ? WalkEnd::kOutside : WalkEnd::kInside;
     result.level = 0.5 * (1.0 + above + result.gauge);
+    result.gap = 0.5 * (result.gauge - 1.0 - above);
     walker.note_proof();
     return;
   }

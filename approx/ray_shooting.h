@@ -58,7 +58,8 @@ struct WalkResult {
                                         ///< ascending; of equal points the first
   double coplanar = 0.0;                ///< [gauge]
   double gauge = 0.0;                   ///< ray: a.direction
-  double level = 1.0;                   ///< kOutside: between a.y for all points y and the gauge
+  double level = 1.0;                   ///< kOutside: between a.y for all points y and the gauge,
+  double gap = 0.0;                     ///< and at least so far from both, but for rounding [gauge]
 };
 
 /// Counters of the work, which do not depend on the machine.

@@ -94,6 +94,57 @@ TEST(ExtremePointsRegression, OfPointsAsGoodAsEqualOneIsAVertex) {
   }
 }
 
+/// Far from the origin planes are rounded by more than they part by, unless their offsets are chosen with
+/// that in mind; what no plane of doubles parts is open.
+TEST(ExtremePointsRegression, FarFromTheOriginPlanesPartAsTheyAreWritten) {
+  for (const std::size_t d : {1U, 2U, 3U, 6U}) {
+    for (const double shift : {1e6, 1e9, 1e11}) {
+      SCOPED_TRACE(std::to_string(d) + "-d, shift " + std::to_string(shift));
+      PointSet set = family_points(PointFamily::kGaussian, 60, d, 7);
+      for (std::size_t i = 0; i < set.coordinates.size(); ++i)
+        set.coordinates[i] += shift * (i % d == 0 ? 1.0 : -0.7);
+      const ExtremePoints found = extreme_points(set.view());
+      expect_parted(found, set);
+      EXPECT_EQ(found.open_points, 0U);
+      if (d > 1) {
+        EXPECT_EQ(rows_of(set, found.vertices), rows_of(set, hull_of(set).vertices));
+      }
+    }
+  }
+}
+
+TEST(ExtremePointsRegression, OfThinHullsPlanesPartAsTheyAreWritten) {
+  for (const std::size_t d : {2U, 3U, 5U}) {
+    for (const double thickness : {1e-6, 1e-9, 1e-11}) {
+      SCOPED_TRACE(std::to_string(d) + "-d, thickness " + std::to_string(thickness * 1e12) + "e-12");
+      PointSet set = family_points(PointFamily::kGaussian, 60, d, 8);
+      for (std::size_t row = 0; row < set.rows(); ++row) {  // thin across the first two axes' diagonal
+        double& x = set.coordinates[row * d];
+        x = set.coordinates[row * d + 1] + thickness * x;
+      }
+      const ExtremePoints found = extreme_points(set.view());
+      expect_parted(found, set);
+      EXPECT_EQ(found.open_points, 0U);
+      EXPECT_EQ(rows_of(set, found.vertices), rows_of(set, hull_of(set).vertices));
+    }
+  }
+}
+
+/// A hull so thin that no double far from the origin is inside it.
+TEST(ExtremePointsRegression, OfAHullAFewRoundingsThickNoVertexIsLost) {
+  constexpr double kUlp = 0x1p-32, kFarX = 0x1p18, kFarY = 0x1.8p20;
+  const std::vector<double> steps = {-313514514.75, -4283509394, -313514509.25, -4283509394,
+                                     627029031,     8567018786,  940543544.25,  12850528180,
+                                     940543538.75,  12850528180, -1.5,          0};
+  PointSet set;
+  set.dimension = 2;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    set.coordinates.push_back((i % 2 == 0 ? -kFarX : kFarY) + kUlp * steps[i]);
+  const ExtremePoints found = extreme_points(set.view());
+  EXPECT_EQ(found.vertices.size() + found.open_points, 6U);
+  EXPECT_EQ(found.points_inside, 0U);
+}
+
 TEST(ExtremePointsOracle, AreTheVerticesOfTheHullOnDegenerateInputs) {
   for (std::size_t d = 2; d <= 6; ++d) {
     for (const DegenerateCase& input : degenerate_cases(80, d, 40 + d)) {
