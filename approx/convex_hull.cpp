@@ -58,6 +58,7 @@ class HullBuilder {
 
   Hull run() {
     frame_ = fit_frame(points_);
+    check_extents(frame_);
     if (frame_.rank > kMaxRank) {
       throw Error(ErrorCode::kDimensionTooHigh, "points span " + std::to_string(frame_.rank) +
                                                     " dimensions, expected at most " +
@@ -126,8 +127,21 @@ class HullBuilder {
           "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
           "coordinates by a power of two, or measure widths in the unit cube");
     }
+    check_squares(lengths.largest_extent);
     clusters_ = Approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_).run();
     seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
+  }
+
+  /// Squares and products of lengths must be doubles.
+  static void check_squares(double largest_extent) {
+    constexpr double kShortest = 1e-140, kLongest = 1e140;
+    if (largest_extent > kShortest && largest_extent < kLongest) return;
+    const bool is_small = largest_extent <= kShortest;
+    throw Error(ErrorCode::kOutOfRange,
+                std::string("points: found an extent ") + (is_small ? "below 1e-140" : "above 1e140") +
+                    ", expected " + (is_small ? "more" : "less") + " where facets are to be fewer; " +
+                    (is_small ? "multiply" : "divide") +
+                    " the coordinates by a power of two, or measure widths in the unit cube");
   }
 
   void merge() {
@@ -157,6 +171,7 @@ class HullBuilder {
 
   /// Fewer facets than the exact ones, if fewer were asked for.
   void choose_for_volume(std::span<const double> determinants) {
+    check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
     std::optional<FacetClusters> few =
         cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
                          gradient_factor(frame_, hull_.length_unit_));

@@ -33,8 +33,10 @@ struct FacetLayout {
   /// Merged facets x rank: the sum of determinant times plane over the simplices; as a covector of the frame
   /// it points along the facet's mean normal, and its product with a direction is a projected area.
   std::vector<double> area_vectors;
-  /// The sum of determinant times |gradient of the plane|, in input units, over all merged simplices.
+  /// The sum of determinant times |gradient of the plane|, in input units, over all merged simplices:
+  /// merged_surface * 2^surface_exponent.
   double merged_surface = 0.0;
+  int surface_exponent = 0;
 
   FacetId facet_of(SimplexId simplex) const {
     return simplex.value < simplicial ? FacetId{simplex.value} : facet_of_merged[simplex.value - simplicial];

@@ -104,9 +104,13 @@ class TableMaker {
         merged_vertices_(merged_vertices),
         dimension_(frame.dimension),
         count_(layout.facets),
-        to_input_(frame),
-        volume_per_determinant_(1.0 /
-                                (volume_scale(frame) * std::tgamma(static_cast<double>(frame.rank) + 1.0))) {
+        to_input_(frame) {
+    const ScaledRatio scale = volume_scale(frame);
+    volume_per_determinant_ = 1.0 / (scale.ratio * std::tgamma(static_cast<double>(frame.rank) + 1.0));
+    volume_exponent_ = -scale.exponent;
+    // In two steps: the power itself may be no double where an area is one.
+    first_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ / 2, -1022, 1022));
+    second_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ - volume_exponent_ / 2, -1022, 1022));
     determinants.discard_from(count_);
     table_.offsets = std::move(determinants);
   }
@@ -279,10 +283,14 @@ class TableMaker {
       part.volume += cone;
       if (facet >= layout_.simplicial) continue;
       // A simplex without volume may have no height either.
-      table_.areas[facet] = cone > 0.0 ? static_cast<double>(frame_.rank) * cone / height : 0.0;
+      table_.areas[facet] =
+          cone > 0.0 ? to_input_size(static_cast<double>(frame_.rank) * cone / height) : 0.0;
       part.area += table_.areas[facet];
     }
   }
+
+  /// From multiples of 2^volume_exponent_ input units.
+  double to_input_size(double size) const { return size * first_power_ * second_power_; }
 
   void sum_up() {
     // In the order of the blocks.
@@ -296,7 +304,9 @@ class TableMaker {
     }
     const double area_per_determinant = static_cast<double>(frame_.rank) * volume_per_determinant_;
     project_areas(area_per_determinant);
-    table_.surface = table_.area + layout_.merged_surface * area_per_determinant;
+    table_.volume = std::ldexp(table_.volume, volume_exponent_);
+    table_.surface = table_.area + std::ldexp(layout_.merged_surface * area_per_determinant,
+                                              layout_.surface_exponent + volume_exponent_);
     for (std::size_t facet = layout_.simplicial; facet < count_; ++facet) table_.area += table_.areas[facet];
   }
 
@@ -311,7 +321,8 @@ class TableMaker {
       double cosine = 0.0;
       for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[m * dimension_ + k] * normal[k];
       // A facet of simplices without volume has no direction either.
-      table_.areas[facet] = std::isfinite(cosine) ? lengths[m] * cosine * area_per_determinant : 0.0;
+      table_.areas[facet] =
+          std::isfinite(cosine) ? to_input_size(lengths[m] * cosine * area_per_determinant) : 0.0;
     }
   }
 
@@ -326,7 +337,11 @@ class TableMaker {
   const IdRows* merged_vertices_;
   std::size_t dimension_, count_;
   NormalMap to_input_;
-  double volume_per_determinant_;
+  /// Of cones and volumes, in multiples of 2^volume_exponent_: those of tiny and of huge data are no doubles
+  /// where areas are.
+  double volume_per_determinant_ = 0.0;
+  int volume_exponent_ = 0;
+  double first_power_ = 1.0, second_power_ = 1.0;  // their product is 2^volume_exponent_
   std::optional<PointGroups> groups_;
   std::vector<FacetSums> parts_;
   FacetTable table_;

@@ -14,12 +14,18 @@
 
 namespace ndhull {
 
-double volume_scale(const Frame& frame) {
+ScaledRatio volume_scale(const Frame& frame) {
   const auto map = as_rows(frame.map, frame.dimension);
-  if (frame.rank == frame.dimension) return std::abs(SquareFactors(map).determinant());
+  ScaledRatio scale;
+  if (frame.rank == frame.dimension) {
+    scale.ratio = std::abs(SquareFactors(map).determinant(scale.exponent));
+    return scale;
+  }
   const auto basis = as_rows(frame.basis, frame.dimension);
   const double spanned = SquareFactors(basis * basis.transpose()).determinant();
-  return std::abs(SquareFactors(map * basis.transpose()).determinant()) / std::sqrt(spanned);
+  scale.ratio =
+      std::abs(SquareFactors(map * basis.transpose()).determinant(scale.exponent)) / std::sqrt(spanned);
+  return scale;
 }
 
 namespace {

@@ -8,8 +8,14 @@
 
 namespace ndhull {
 
+/// ratio * 2^exponent: what doubles cannot always hold.
+struct ScaledRatio {
+  double ratio = 0.0;
+  int exponent = 0;
+};
+
 /// |det| of the frame's map on the subspace of the data: frame volume per input volume.
-double volume_scale(const Frame& frame);
+ScaledRatio volume_scale(const Frame& frame);
 
 /// Unit normals in input coordinates of planes in the frame; of flat data, normals that lie in the subspace.
 class NormalMap {

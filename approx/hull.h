@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -68,6 +69,11 @@ struct HullOptions {
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
 
+/// Is an area or a volume, of what has one, a double to all its digits?
+inline bool is_in_range(double measure) {
+  return measure >= std::numeric_limits<double>::min() && measure <= std::numeric_limits<double>::max();
+}
+
 enum class HullStatus { kComplete, kFacetLimit, kTimeLimit, kMemoryLimit, kInterrupted };
 std::string_view to_string(HullStatus status);
 
@@ -130,7 +136,8 @@ class Hull {
 
   std::vector<PointId> vertices;  ///< ascending; no redundant ones
 
-  double area = 0.0;  ///< of the hull of the input, input units
+  /// Of the hull of the input, input units. Beyond the range of doubles: infinite, or 0 or subnormal.
+  double area = 0.0;
   double volume = 0.0;
   double roundoff = 0.0;           ///< [distance] proven rounding error of a distance, length unit
   double max_outer_offset = 0.0;   ///< [distance] certified, >= 0

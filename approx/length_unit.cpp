@@ -8,6 +8,29 @@
 #include "core/dense_views.h"
 
 namespace ndhull {
+namespace {
+
+/// [ratio] Sums of squares between these neither overflow nor lose digits.
+constexpr double kLeastSquares = 0x1p-900, kMostSquares = 0x1p900;
+
+int largest_exponent(const Eigen::Ref<const Eigen::MatrixXd>& entries) {
+  int exponent = 0;
+  std::frexp(entries.size() == 0 ? 0.0 : entries.cwiseAbs().maxCoeff(), &exponent);
+  return exponent;
+}
+
+/// The length of a vector that may be tiny or huge.
+double safe_length(const Eigen::VectorXd& entries) {
+  const double square = entries.squaredNorm();
+  if (square > kLeastSquares && square < kMostSquares) return std::sqrt(square);
+  const int exponent = largest_exponent(entries);
+  const Eigen::VectorXd scaled =
+      entries.unaryExpr([exponent](double entry) { return std::ldexp(entry, -exponent); });
+  return std::ldexp(scaled.norm(), exponent);
+}
+
+}  // namespace
+
 LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
   if (!unit_cube) return;
   extents_.resize(frame.dimension);
@@ -17,7 +40,11 @@ LengthUnit::LengthUnit(const Frame& frame, bool unit_cube) {
   for (std::size_t k = 0; k < frame.dimension; ++k) {
     spanned.row(static_cast<Eigen::Index>(k)) *= extents_[k] > 0.0 ? 1.0 / extents_[k] : 0.0;
   }
-  for (Eigen::Index column = 0; column < spanned.cols(); ++column) spanned.col(column).normalize();
+  for (Eigen::Index column = 0; column < spanned.cols(); ++column) {
+    const int exponent = largest_exponent(spanned.col(column));
+    for (double& entry : spanned.col(column)) entry = std::ldexp(entry, -exponent);
+    spanned.col(column).normalize();
+  }
   const RowMatrix thin = orthonormal_columns(spanned, spanned.cols()).transpose();
   directions_.assign(thin.data(), thin.data() + thin.size());
 }
@@ -39,10 +66,11 @@ double LengthUnit::input_per_unit(std::span<const double> normal) const {
     double square = 0.0;
     for (std::size_t k = 0; k < normal.size(); ++k)
       square += normal[k] * extents_[k] * (normal[k] * extents_[k]);
-    return std::sqrt(square);
+    if (square > kLeastSquares && square < kMostSquares) return std::sqrt(square);
   }
   const std::vector<double> scaled = gradient(normal);
-  return Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size())).norm();
+  return safe_length(
+      Eigen::Map<const Eigen::VectorXd>(scaled.data(), static_cast<Eigen::Index>(scaled.size())));
 }
 
 std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit) {
@@ -58,7 +86,9 @@ std::vector<double> gradient_factor(const Frame& frame, const LengthUnit& unit) 
         lengths[i] *
         Eigen::Map<const Eigen::VectorXd>(column.data(), static_cast<Eigen::Index>(column.size()));
   }
-  const RowMatrix upper = upper_factor(gradients);
+  const int exponent = largest_exponent(gradients);
+  const auto times = [](int power) { return [power](double entry) { return std::ldexp(entry, power); }; };
+  const RowMatrix upper = upper_factor(gradients.unaryExpr(times(-exponent))).unaryExpr(times(exponent));
   return {upper.data(), upper.data() + upper.size()};
 }
 

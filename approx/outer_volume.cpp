@@ -119,7 +119,8 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   const double scale =
       facets.empty() ? arena.execute([&] { return scale_of_outer_polytope(hull); }) : HUGE_VAL;
   const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
-  if (scale <= kNarrow) return {most, ""};
+  const OuterVolume beyond{std::nullopt, "it is beyond the range of doubles"};
+  if (scale <= kNarrow) return is_in_range(most) ? OuterVolume{most, ""} : beyond;
   const OuterVolume too_many{
       std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
@@ -154,7 +155,8 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   if (measure.status != HullStatus::kComplete)
     return {std::nullopt, measure.status == HullStatus::kTimeLimit ? kOutOfTime : "interrupted"};
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
-  return {std::max(hull.volume, std::min(most, measure.volume)), ""};
+  const double volume = std::max(hull.volume, std::min(most, measure.volume));
+  return is_in_range(volume) ? OuterVolume{volume, ""} : beyond;
 }
 
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits) {

@@ -37,8 +37,9 @@ struct FacetGeometry::InPlane {
   Hull hull;
 };
 
-FacetGeometry::FacetGeometry(const RayShooter& shooter)
-    : shooter_(shooter), volume_scale_(volume_scale(shooter.frame())) {
+FacetGeometry::FacetGeometry(const RayShooter& shooter) : shooter_(shooter) {
+  const ScaledRatio scale = volume_scale(shooter.frame());
+  volume_scale_ = std::ldexp(scale.ratio, scale.exponent);
   const Frame& frame = shooter.frame();
   const auto rank = static_cast<Index>(frame.rank);
   const RowMatrix identity = RowMatrix::Identity(rank, rank);

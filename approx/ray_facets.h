@@ -45,7 +45,7 @@ class FacetGeometry {
   InPlane project(const RayFacet& facet) const;
 
   const RayShooter& shooter_;
-  double volume_scale_;  // frame volume per input volume
+  double volume_scale_ = 0.0;  // frame volume per input volume
   // rank x dimension: a plane times this is its normal in input units, of length one over its height.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> to_input_;
 };

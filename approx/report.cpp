@@ -138,6 +138,8 @@ void add_outer_volume(const OuterVolume* outer, Json& json) {
   if (!is_known) json["outer_volume_reason"] = outer != nullptr ? outer->reason : "not computed";
 }
 
+constexpr const char* kBeyondDoubles = "beyond the range of doubles";
+
 Json head_of(const Hull& hull, const ReportContext& context) {
   Json json;
   json["ndhull"] = version();
@@ -156,8 +158,12 @@ Json head_of(const Hull& hull, const ReportContext& context) {
   json["simplices"] = hull.simplex_count();
   if (context.selection != nullptr)
     json["selected"] = selected_of(*context.selection, context.outer_distance);
-  json["area"] = hull.area;
-  json["volume"] = hull.volume;
+  const bool has_area = hull.rank < 2 || is_in_range(hull.area);
+  const bool has_volume = hull.rank < 1 || is_in_range(hull.volume);
+  json["area"] = has_area ? Json(hull.area) : Json(nullptr);
+  if (!has_area) json["area_reason"] = kBeyondDoubles;
+  json["volume"] = has_volume ? Json(hull.volume) : Json(nullptr);
+  if (!has_volume) json["volume_reason"] = kBeyondDoubles;
   add_outer_volume(context.outer_volume, json);
   json["roundoff"] = hull.roundoff;
   json["max_outer_offset"] = hull.max_outer_offset;

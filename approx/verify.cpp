@@ -86,7 +86,30 @@ void verify_complex(const HullClaims& hull, ClaimRecord& record) {
   record.first_failure = found.first_problem;
 }
 
-void verify_numbers(const HullClaims& hull, ClaimRecord& record) {
+/// May a volume or an area of that dimension rightly be no double? Infinite when the ball around all points
+/// is too large for one; 0 or subnormal when a box would be too small whose sides are the shortest extent
+/// that is not 0, less what a hull is thinner at most by rounding.
+bool may_be_beyond_range(const PointView& points, double measure, std::size_t power) {
+  constexpr double kThinnest = 45.0;  // powers of two
+  double longest = -HUGE_VAL, shortest = HUGE_VAL;
+  for (std::size_t k = 0; k < points.dimension; ++k) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t row = 0; row < points.rows; ++row) {
+      low = std::min(low, points.at(row, k));
+      high = std::max(high, points.at(row, k));
+    }
+    const double half = 0.5 * high - 0.5 * low;
+    if (!(half > 0.0)) continue;
+    longest = std::max(longest, std::log2(half) + 1.0);
+    shortest = std::min(shortest, std::log2(half) + 1.0);
+  }
+  const double dimension = static_cast<double>(points.dimension), factors = static_cast<double>(power);
+  if (measure > 1.0)
+    return factors * (longest + 0.5 * std::log2(dimension)) + std::log2(2.0 * dimension) >= 1024.0;
+  return factors * (shortest - kThinnest) <= -1022.0;
+}
+
+void verify_numbers(const PointView& points, const HullClaims& hull, ClaimRecord& record) {
   const HullNumbers numbers = hull.numbers();
   double outer = 0.0, inner = 0.0, width = 0.0;
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
@@ -111,9 +134,13 @@ void verify_numbers(const HullClaims& hull, ClaimRecord& record) {
       numbers.max_facet_width >= width && numbers.max_facet_width <= std::nextafter(width, HUGE_VAL);
   expect("largest facet width", width, numbers.max_facet_width, width_holds);
   if (numbers.rank < 2) return;
-  expect("volume, expected above 0", 0.0, numbers.volume,
-         numbers.volume > 0.0 && std::isfinite(numbers.volume));
-  expect("area, expected above 0", 0.0, numbers.area, numbers.area > 0.0 && std::isfinite(numbers.area));
+  const auto expect_size = [&](const char* name, double claimed, std::size_t power) {
+    const bool is_number = claimed >= 0.0;  // NaN is none
+    expect(name, 0.0, claimed,
+           is_in_range(claimed) || (is_number && may_be_beyond_range(points, claimed, power)));
+  };
+  expect_size("volume, expected above 0", numbers.volume, numbers.rank);
+  expect_size("area, expected above 0", numbers.area, numbers.rank - 1);
 }
 
 }  // namespace
@@ -184,7 +211,7 @@ Verification verify_claims(const PointView& points, const HullClaims& hull, Veri
   const auto doubtful = mode == VerifyMode::kExact ? DoubtfulSign::kExact : DoubtfulSign::kExtendedThenExact;
   verify_facets(points, hull, doubtful, result);
   verify_outer(points, hull, mode, max_outer_work, result);
-  verify_numbers(hull, numbers_record);
+  verify_numbers(points, hull, numbers_record);
   const bool ids_are_sound =
       result.of(Claim::kComplex).failures == 0 && result.of(Claim::kFacets).failures == 0;
   if (mode == VerifyMode::kExact && ids_are_sound && numbers.rank == numbers.dimension && numbers.rank >= 2) {

@@ -1,6 +1,7 @@
 #include "core/dense_solve.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 namespace ndhull {
 
@@ -13,6 +14,17 @@ Eigen::VectorXd SquareFactors::solve(const Eigen::VectorXd& right_side) const {
 Eigen::MatrixXd SquareFactors::inverse() const { return factors_.inverse(); }
 
 double SquareFactors::determinant() const { return factors_.determinant(); }
+
+double SquareFactors::determinant(int& exponent) const {
+  double product = static_cast<double>(factors_.permutationP().determinant());
+  exponent = 0;
+  for (const double pivot : factors_.matrixLU().diagonal()) {
+    int power = 0;
+    product *= std::frexp(pivot, &power);
+    exponent += power;
+  }
+  return product;
+}
 
 double SquareFactors::reciprocal_condition() const { return factors_.rcond(); }
 

@@ -15,6 +15,8 @@ class SquareFactors {
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
   Eigen::MatrixXd inverse() const;
   double determinant() const;
+  /// Of tiny or huge entries: the determinant is what is returned times 2^exponent.
+  double determinant(int& exponent) const;
   double reciprocal_condition() const;  ///< an estimate
 
  private:

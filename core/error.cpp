@@ -14,6 +14,7 @@ std::string_view to_string(ErrorCode code) {
     case ErrorCode::kBadHeader: return "bad-header";
     case ErrorCode::kBadNumber: return "bad-number";
     case ErrorCode::kNotFinite: return "not-finite";
+    case ErrorCode::kOutOfRange: return "out-of-range";
     case ErrorCode::kRaggedRow: return "ragged-row";
     case ErrorCode::kWrongCount: return "wrong-count";
     case ErrorCode::kTruncated: return "truncated";

@@ -19,6 +19,7 @@ enum class ErrorCode {
   kBadHeader,         ///< the header of a format is not what the format says
   kBadNumber,         ///< text where a number is expected
   kNotFinite,         ///< NaN or infinity
+  kOutOfRange,        ///< numbers so large or small that results would be no doubles
   kRaggedRow,         ///< a row with another number of columns than the first
   kWrongCount,        ///< fewer or more rows than announced
   kTruncated,         ///< a binary file that ends early

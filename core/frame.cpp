@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -129,7 +130,12 @@ Matrix directions_in_input_units(Matrix directions, const Vector& scale) {
   for (Eigen::Index column = 0; column < columns; ++column) {
     directions.col(column) *= scale[column] == 0.0 ? 0.0 : 1.0 / scale[column];
   }
-  for (Eigen::Index row = 0; row < rank; ++row) directions.row(row).normalize();
+  for (Eigen::Index row = 0; row < rank; ++row) {
+    int exponent = 0;  // squares of tiny and of huge entries are no doubles
+    std::frexp(directions.row(row).cwiseAbs().maxCoeff(), &exponent);
+    for (double& entry : directions.row(row)) entry = std::ldexp(entry, -exponent);
+    directions.row(row).normalize();
+  }
   return directions;
 }
 
@@ -148,6 +154,21 @@ Matrix regular_simplex(Eigen::Index rank) {
 }
 
 }  // namespace
+
+void check_extents(const Frame& frame) {
+  constexpr double kLeastExtent = 1e-300;
+  for (std::size_t k = 0; k < frame.dimension; ++k) {
+    const double extent = frame.column_max[k] - frame.column_min[k];
+    if (extent == 0.0 || (extent >= kLeastExtent && std::isfinite(extent))) continue;
+    char found[32];
+    std::snprintf(found, sizeof found, "%.3g", extent);
+    const bool is_small = extent < kLeastExtent;
+    throw Error(ErrorCode::kOutOfRange,
+                "points: found an extent of " + std::string(found) + " in column " + std::to_string(k + 1) +
+                    ", expected " + (is_small ? "at least 1e-300, or 0; multiply" : "a finite one; divide") +
+                    " the coordinates by a power of two");
+  }
+}
 
 Frame fit_frame(const PointView& points) {
   check_shape(points);

@@ -41,6 +41,10 @@ struct Frame {
 /// Cost      O(n d rank) time, 8 n d bytes of scratch.
 Frame fit_frame(const PointView& points);
 
+/// Throws Error kOutOfRange where a column varies by less than 1e-300 or by more than doubles hold: planes
+/// would not be doubles.
+void check_extents(const Frame& frame);
+
 /// Maps all points: out is points.rows x rank, row-major. Coordinates carry the error of one rounding, also
 /// where the map is ill-conditioned (products and sums are compensated; Ogita, Rump, Oishi. Accurate sum and
 /// dot product. SISC 26(6), 2005).

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "approx/facet_selection.h"
+#include "approx/hull.h"
 #include "approx/outer_distance.h"
 #include "approx/outer_volume.h"
 #include "approx/verify.h"
@@ -18,6 +19,11 @@ std::string describe_selection(const FacetSelection& selection, const OuterDista
   if (!selection.bounded) return text + "; not bounded\n";
   if (outer == nullptr || !outer->distance) return text + "; bounded\n";
   return text + fmt::format("; bounded, nowhere further than {:.6g} from the hull\n", *outer->distance);
+}
+
+std::string describe_size(std::string_view name, double size, std::string_view unit) {
+  if (!is_in_range(size)) return fmt::format("{:<10}beyond the range of doubles\n", name);
+  return fmt::format("{:<10}{:.10g} {}\n", name, size, unit);
 }
 
 std::string describe_outer_volume(const OuterVolume& outer, const Hull& hull) {
@@ -47,9 +53,9 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
   if (context.selection != nullptr) text += describe_selection(*context.selection, context.outer_distance);
   if (hull.rank > 0) {
     // The facets of a segment are its two ends, which are counted.
-    text += fmt::format("volume    {:.10g} {}\n", hull.volume, power_of_unit(hull.rank));
+    text += describe_size("volume", hull.volume, power_of_unit(hull.rank));
     if (context.outer_volume != nullptr) text += describe_outer_volume(*context.outer_volume, hull);
-    if (hull.rank > 1) text += fmt::format("area      {:.10g} {}\n", hull.area, power_of_unit(hull.rank - 1));
+    if (hull.rank > 1) text += describe_size("area", hull.area, power_of_unit(hull.rank - 1));
     text += fmt::format("width     {:.3g} {}: the widest facet, certified\n", hull.max_facet_width, unit);
     text += fmt::format("roundoff  {:.3g} {}\n", hull.roundoff, unit);
   }

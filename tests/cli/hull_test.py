@@ -205,6 +205,57 @@ def test_extents_beyond_single_precision_are_refused_where_facets_are_merged():
     assert report_of(path, "--outside-width", "5%", "--verify")["points_outside"] == 0
 
 
+def test_coordinates_at_the_ends_of_the_range_of_doubles():
+    path = fresh_folder("ends") / "points.npy"
+    points = numpy.random.default_rng(1).normal(size=(60, 5))
+    numpy.save(path, points)
+    same = report_of(path, "--unit-cube")
+    # Volumes are no doubles from 1e62 on and below 1e-62, areas from 1e77 on and below 1e-77.
+    for exponent in (55, 65, 100, 200, 300, -55, -70, -100, -200, -290):
+        numpy.save(path, points * 2.0 ** (exponent / 0.30103 // 1))
+        scale = 5 * (exponent / 0.30103 // 1)
+        for words in ([], ["--unit-cube"]):
+            report = report_of(path, *words, "--verify", "--facet-list")
+            if abs(exponent) < 60:
+                assert abs(report["volume"] / (same["volume"] * 2.0**scale) - 1) < 1e-12, exponent
+            else:
+                assert report["volume"] is None and report["outer_volume"] is None, exponent
+                assert "range of doubles" in report["volume_reason"] + report["outer_volume_reason"]
+            if abs(exponent) < 75:
+                assert report["area"] > 0 and "area_reason" not in report, exponent
+                areas = [facet["area"] for facet in report["facet_list"]]
+                assert abs(sum(areas) / report["area"] - 1) < 1e-12, exponent
+            else:
+                assert report["area"] is None and "range of doubles" in report["area_reason"], exponent
+            # Planes, and so roundoff, differ in the last bits between the two units only.
+            expected = same["roundoff"] * (1 if words else 2.0 ** (scale / 5))
+            assert 0.1 * expected < report["roundoff"] < 20 * expected, (exponent, words, report["roundoff"])
+        report = report_of(path, "--unit-cube", "--width", "5%", "--verify")
+        assert report["max_facet_width"] <= 0.05 and report["facets"] > 60, exponent
+        summary = run("hull", path).stdout
+        assert ("volume    beyond the range of doubles" in summary) == (abs(exponent) > 60), summary
+
+
+def test_coordinates_below_the_range_are_refused_with_a_word():
+    path = fresh_folder("tiny") / "points.npy"
+    numpy.save(path, numpy.random.default_rng(1).integers(-1000, 1000, (60, 5)) * 5e-324)
+    for command in (["hull", path], ["hull", path, "--verify"], ["hull", path, "--unit-cube", "--verify"],
+                    ["largest", path, "-n", 3], ["largest", path, "-n", 3, "--method", "rays"]):  # fmt: skip
+        done = run(*command, exit_code=1)
+        one_error_line(done, "out-of-range")
+        assert "multiply the coordinates" in done.stderr, done.stderr
+    numpy.save(path, numpy.random.default_rng(1).normal(size=(60, 4)) * 1e-200)
+    for words in (["--facets", "8"], ["--width", "5%"], ["--max-cosine", "0.9"]):
+        done = run("hull", path, *words, exit_code=1)
+        one_error_line(done, "out-of-range")
+        assert "multiply the coordinates" in done.stderr, done.stderr
+        assert report_of(path, *words, "--unit-cube", "--verify")["points_outside"] == 0
+    numpy.save(path, numpy.random.default_rng(1).uniform(-1.0, 1.0, size=(60, 4)) * 1.7e308)
+    done = run("hull", path, "--unit-cube", exit_code=1)
+    one_error_line(done, "out-of-range")
+    assert "divide the coordinates" in done.stderr, done.stderr
+
+
 def test_nothing_half_written_stays_when_a_scheduler_ends_the_run():
     folder = fresh_folder("terminate")
     rbox(LONG_RUN, folder / "points.npy")
