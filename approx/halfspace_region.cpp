@@ -116,9 +116,14 @@ class RegionFinder {
       if (pass > 0) warm_start(lp, table, ball);
       ball = solve_lp(lp, [&table](const LpQuery& query) { return table.price(query); });
       const bool is_open = ball.status == LpStatus::kInfeasible;
-      const VectorXd duals = as_vector(ball.duals).head(rank);
+      const VectorXd duals = as_vector(ball.duals).head(rank), before = point_;
+      const double radius = planes.heights.minCoeff();
       point_ += planes.basis * (is_open ? outwards(planes, duals) : duals);
       set_heights(planes);
+      if (!is_open && pass > 0 && planes.heights.minCoeff() < radius) {  // rounding had led away
+        point_ = before;
+        set_heights(planes);
+      }
       if (!is_open) continue;
       region_.radius = std::numeric_limits<double>::infinity();
       return planes.heights.minCoeff() > 0.0;
@@ -162,6 +167,11 @@ class RegionFinder {
   void settle() {
     // No plane holds the ball: the way out that was found leads through planes, to rounding.
     if (tight_.empty()) throw too_long_a_region();
+    if (objective_ > roundoff_) {  // a ball, but no point of which it is the ball
+      throw Error(ErrorCode::kBadHalfspace,
+                  "found planes that are parallel but for rounding, so that doubles do not tell what they "
+                  "enclose, expected equal ones or others; remove copies, or name an interior point");
+    }
     if (objective_ < -roundoff_) {
       prove_empty(tight_);
     } else {

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
+
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
@@ -21,12 +23,13 @@ using Lane = hn::Vec<Tag>;
 /// up to sign. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th
 /// ed., 3.4). Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot
 /// row in turn, which leaves the largest there. A singular system gives infinities or NaN in its lane.
-/// Without pivots it takes less than half the time, and where a diagonal entry is small the digits that x
-/// loses.
+/// Without pivots it takes less than half the time, and loses as many digits as the smallest diagonal entry
+/// it meets is small: `smallest`.
 template <std::size_t D, bool kPivots = true>
-HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
+HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D], Lane* smallest = nullptr) {
   const Tag tag;
   Lane determinant = hn::Set(tag, 1.0);
+  if (!kPivots) *smallest = hn::Set(tag, HUGE_VAL);
   for (std::size_t column = 0; column < D; ++column) {
     for (std::size_t row = column + 1; kPivots && row < D; ++row) {
       const auto larger = hn::Gt(hn::Abs(matrix[row][column]), hn::Abs(matrix[column][column]));
@@ -38,6 +41,7 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D]) {
       }
     }
     determinant = hn::Mul(determinant, matrix[column][column]);
+    if (!kPivots) *smallest = hn::Min(*smallest, hn::Abs(matrix[column][column]));
     const Lane inverse = hn::Div(hn::Set(tag, 1.0), matrix[column][column]);
     for (std::size_t row = column + 1; row < D; ++row) {
       const Lane factor = hn::Neg(hn::Mul(matrix[row][column], inverse));

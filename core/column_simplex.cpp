@@ -24,6 +24,11 @@ constexpr double kTrifleSlack = 1e-3;
 /// A factorisation with a smaller reciprocal condition has no digits left.
 constexpr double kSingular = 1e-14;
 
+/// Pivots, and for each row, after which columns that are nearly parallel are taken for what leads round in
+/// circles, and tolerances are loosened by so much; again after as many.
+constexpr std::uint64_t kPatience = 250, kPatienceARow = 25;
+constexpr double kLooser = 100.0;
+
 /// splitmix64 (Steele, Lea, Flood. Fast splittable pseudorandom number generators. OOPSLA 2014).
 double next_unit(std::uint64_t& state) {
   std::uint64_t z = (state += 0x9E37'79B9'7F4A'7C15u);
@@ -124,7 +129,12 @@ double ColumnSimplex::held_by_artificials() const {
 }
 
 bool ColumnSimplex::is_feasible() const {
-  return held_by_artificials() <= options_.feasibility_tolerance * rhs_.cwiseAbs().sum();
+  return held_by_artificials() <= looseness() * options_.feasibility_tolerance * rhs_.cwiseAbs().sum();
+}
+
+double ColumnSimplex::looseness() const {
+  const std::uint64_t patience = kPatience + kPatienceARow * basis_.size();
+  return std::pow(kLooser, static_cast<double>(pivots_ / patience));
 }
 
 /// One step of refinement: the inverse is good to its condition, the values to rounding.
@@ -214,7 +224,7 @@ void ColumnSimplex::offer(const std::optional<LpColumn>& best) {
   const Eigen::Map<const Vector> given(best->entries.data(), rhs_.size());
   const double weight = phase_one_ ? 0.0 : 1.0;
   const double size = weight * std::abs(best->cost) + duals_.cwiseAbs().dot(given.cwiseAbs());
-  if (!(query().reduced_cost(*best) < -options_.cost_tolerance * size)) return conclude();
+  if (!(query().reduced_cost(*best) < -looseness() * options_.cost_tolerance * size)) return conclude();
   if (pivots_ >= options_.max_pivots) {
     status_ = LpStatus::kStalled;
     return;
@@ -231,7 +241,9 @@ void ColumnSimplex::offer(const std::optional<LpColumn>& best) {
     return;
   }
   pivot(row, *best, entries, alpha);
-  if (phase_one_ && held_by_artificials() == 0.0) return leave_phase_one();
+  if (phase_one_ && (held_by_artificials() == 0.0 || (looseness() > 1.0 && is_feasible()))) {
+    return leave_phase_one();
+  }
   const auto interval = std::max<std::uint64_t>(20, basis_.size() / 2);
   if (since_refactor_ >= interval) return conclude();
   compute_duals();

@@ -142,9 +142,16 @@ void mark_flat_of(const SimplicialComplex& complex, const double* points, double
     for (const std::uint32_t row : block) is_flat[row] = 1;
 }
 
-// One simplex a lane.
+/// What elimination finds of the simplices of a block, one a lane.
+template <std::size_t D>
+struct SolvedBlock {
+  HWY_ALIGN double dual[D * HWY_MAX_BYTES / sizeof(double)];  // entry k of a lane at k * lanes + lane
+  HWY_ALIGN double determinant[HWY_MAX_BYTES / sizeof(double)];
+  HWY_ALIGN double smallest[HWY_MAX_BYTES / sizeof(double)];  // diagonal entry
+};
+
 template <std::size_t D, bool kPivots>
-void solve_block(const double* const* rows, double* dual_out, double* determinant_out) {
+void solve_block(const double* const* rows, SolvedBlock<D>& solved) {
   const Tag tag;
   const std::size_t lanes = hn::Lanes(tag);
   HWY_ALIGN double entries[D * D * HWY_MAX_BYTES / sizeof(double)];
@@ -154,32 +161,29 @@ void solve_block(const double* const* rows, double* dual_out, double* determinan
       for (std::size_t k = 0; k < D; ++k) entries[(i * D + k) * lanes + lane] = row[k];
     }
   }
-  Lane matrix[D][D + 1], dual[D];
+  Lane matrix[D][D + 1], dual[D], smallest = hn::Set(tag, 1.0);
   for (std::size_t i = 0; i < D; ++i) {
     for (std::size_t k = 0; k < D; ++k) matrix[i][k] = hn::Load(tag, entries + (i * D + k) * lanes);
     matrix[i][D] = hn::Set(tag, 1.0);
   }
-  const Lane determinant = eliminate<D, kPivots>(matrix, dual);
-  for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, dual_out + k * lanes);
-  hn::StoreU(determinant, tag, determinant_out);
+  const Lane determinant = eliminate<D, kPivots>(matrix, dual, &smallest);
+  for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, solved.dual + k * lanes);
+  hn::Store(determinant, tag, solved.determinant);
+  hn::Store(smallest, tag, solved.smallest);
 }
 
-/// Do all lanes' solved planes agree with those of growth? Then the elimination has lost no digits to speak
-/// of, and the determinants are as good. Simplices that are thin enough to fail are few.
+/// Has elimination without pivots lost no digits to speak of? Then the solved plane agrees with that of
+/// growth. It may agree where the determinant is wrong, since the right side can be blind to what was lost:
+/// then a diagonal entry is small. Simplices that fail are few.
 template <std::size_t D>
-bool agree(const SimplicialComplex& complex, std::size_t begin, std::size_t used, const double* solved,
-           std::size_t lanes) {
-  constexpr double kAgreement = 1e-11;
-  for (std::size_t lane = 0; lane < used; ++lane) {
-    const double* plane = complex.planes.data() + (begin + lane) * D;
-    double largest = 0.0, difference = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-      largest = std::max(largest, std::abs(plane[k]));
-      difference += std::abs(solved[k * lanes + lane] - plane[k]);  // keeps NaN
-    }
-    if (!(difference <= kAgreement * largest)) return false;
+bool is_good(const SolvedBlock<D>& solved, std::size_t lane, const double* plane, std::size_t lanes) {
+  constexpr double kAgreement = 1e-11, kSmall = 1e-4;
+  double largest = 0.0, difference = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    largest = std::max(largest, std::abs(plane[k]));
+    difference += std::abs(solved.dual[k * lanes + lane] - plane[k]);  // keeps NaN
   }
-  return true;
+  return difference <= kAgreement * largest && solved.smallest[lane] > kSmall;
 }
 
 /// Takes the solved plane when it is one: finite and near the plane that growth made.
@@ -202,11 +206,12 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points,
   const std::size_t lanes = hn::Lanes(Tag());
   for_each_block(complex.row_count, kSimplicesInBlock, [&](std::size_t first, std::size_t last) {
     std::vector<const double*> rows(lanes * D);
-    std::vector<double> dual(lanes * D), determinant(lanes);
-    std::vector<std::uint8_t> is_replaced(lanes);
+    // What a simplex gets does not depend on those beside it.
+    std::vector<std::uint8_t> is_replaced(lanes), wants_pivots(lanes);
+    SolvedBlock<D> plain, pivoted;
     for (std::size_t begin = first; begin < last; begin += lanes) {
       const std::size_t used = std::min(lanes, last - begin);
-      bool replaces = false;
+      std::size_t replaced = 0;
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
         const auto vertices = complex.vertices(simplex);
@@ -215,21 +220,22 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points,
         std::uint8_t any = 0;
         for (const PointId id : vertices) any |= is_shifted[id.value];
         is_replaced[lane] = any;
-        replaces = replaces || any != 0;
+        replaced += any;
       }
-      // Planes that are not to be replaced say whether pivots are needed.
-      if (!replaces) solve_block<D, false>(rows.data(), dual.data(), determinant.data());
-      if (replaces || !agree<D>(complex, begin, used, dual.data(), lanes)) {
-        solve_block<D, true>(rows.data(), dual.data(), determinant.data());
+      if (replaced < lanes) solve_block<D, false>(rows.data(), plain);
+      bool any_wants = false;
+      for (std::size_t lane = 0; lane < used; ++lane) {
+        const double* const plane = complex.planes.data() + (begin + lane) * D;
+        wants_pivots[lane] = is_replaced[lane] != 0 || !is_good<D>(plain, lane, plane, lanes) ? 1 : 0;
+        any_wants = any_wants || wants_pivots[lane] != 0;
       }
+      if (any_wants) solve_block<D, true>(rows.data(), pivoted);
       for (std::size_t lane = 0; lane < used; ++lane) {
         // A zero pivot, of a simplex without volume, turns into NaN further down.
-        determinants[begin + lane] = std::isfinite(determinant[lane]) ? determinant[lane] : 0.0;
-      }
-      if (!replaces) continue;
-      for (std::size_t lane = 0; lane < used; ++lane) {
-        if (!is_replaced[lane]) continue;
-        take_plane<D>(complex.planes.data() + (begin + lane) * D, dual.data() + lane, lanes);
+        const double determinant = (wants_pivots[lane] != 0 ? pivoted : plain).determinant[lane];
+        determinants[begin + lane] = std::isfinite(determinant) ? determinant : 0.0;
+        if (is_replaced[lane] == 0) continue;
+        take_plane<D>(complex.planes.data() + (begin + lane) * D, pivoted.dual + lane, lanes);
       }
     }
   });

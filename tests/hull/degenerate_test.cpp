@@ -1,6 +1,7 @@
 // Inputs on which hull programs lose points, facets or precision: narrow, nearly coplanar, far away, uneven.
 #include <cmath>
 
+#include "core/portable_random.h"
 #include "tests/hull/exact_oracle.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
@@ -141,6 +142,28 @@ TEST(HullRegression, SlabsOfAnyThicknessKeepTheirVolume) {
       EXPECT_EQ(hull.facet_count(), known.facets);
       EXPECT_NEAR(hull.volume, *known.volume * thickness, 1e-9 * *known.volume * thickness);
       expect_tight(slab(100, d, thickness, 4));
+    }
+  }
+}
+
+/// Elimination without pivots can lose the digits of a simplex' volume and keep those of its plane.
+TEST(HullRegression, GridPointsMovedByRoundingKeepTheirVolume) {
+  for (const std::size_t d : {3U, 4U, 5U, 6U}) {
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+      PortableRandom random(100 * seed + d);
+      PointSet grid, moved;
+      grid.dimension = moved.dimension = d;
+      for (std::size_t i = 0; i < (d + 4) * d; ++i) {
+        const double x = static_cast<double>(random.below(3)) - 1.0;
+        grid.coordinates.push_back(x);
+        moved.coordinates.push_back(x + 1e-12 * random.normal());
+      }
+      const Hull expected = hull_of(grid);
+      if (expected.rank < d) continue;
+      SCOPED_TRACE("d " + std::to_string(d) + ", seed " + std::to_string(seed));
+      const Hull hull = hull_of(moved);
+      EXPECT_NEAR(hull.volume, expected.volume, 1e-9 * expected.volume);
+      EXPECT_NEAR(hull.area, expected.area, 1e-9 * expected.area);
     }
   }
 }
