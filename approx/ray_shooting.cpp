@@ -278,8 +278,8 @@ void RayShooter::decide(Walker& walker) const {
     walker.state = Walker::State::kDone;
   };
   if (walker.query.is_refuted) return take_in(walker.query.furthest);
+  WalkResult& result = walker.result;
   if (tried_to_separate) {
-    WalkResult& result = walker.result;
     walker.state = Walker::State::kDone;
     result.end = WalkEnd::kOutside;
     result.plane.assign(walker.walk.plane().data(), walker.walk.plane().data() + frame_.rank);
@@ -304,7 +304,6 @@ void RayShooter::decide(Walker& walker) const {
     worst_id = id;
   }
   if (worst_id != DirectionQuery::kNoPoint) return take_in(worst_id);
-  WalkResult& result = walker.result;
   walker.state = Walker::State::kDone;
   result.gauge = walker.walk.gauge();
   result.plane.assign(plane.data(), plane.data() + plane.size());
