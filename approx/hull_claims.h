@@ -41,6 +41,7 @@ class HullClaims {
   virtual double outer_offset(FacetId facet) const = 0;
   virtual double inner_offset(FacetId facet) const = 0;
   virtual double input_per_length_unit(FacetId facet) const = 0;
+  virtual double area_of(FacetId facet) const = 0;
   virtual std::span<const PointId> vertices_of(FacetId facet) const = 0;
   virtual std::span<const FacetId> neighbours_of(FacetId facet) const = 0;
   virtual std::span<const SimplexId> simplices_of(FacetId facet) const = 0;

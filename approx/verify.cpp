@@ -109,6 +109,38 @@ bool may_be_beyond_range(const PointView& points, double measure, std::size_t po
   return factors * (shortest - kThinnest) <= -1022.0;
 }
 
+/// Areas times normals sum up to 0 over a closed surface (Minkowski), areas times heights above any point to
+/// rank times the volume. Not of clusters that are no flats: their areas are those of projections.
+void verify_areas(const HullClaims& hull, const HullNumbers& numbers, ClaimRecord& record) {
+  constexpr double kRoundoff = 1e-8, kRoundings = 64.0;
+  if (numbers.is_approximate || !is_in_range(numbers.area) || !is_in_range(numbers.volume)) return;
+  std::vector<double> normals(numbers.dimension, 0.0);
+  double area = 0.0, volume = 0.0, size = 0.0, slack = 0.0, unit = 0.0;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const FacetId facet{row};
+    const double share = hull.area_of(facet) / numbers.area, height = -hull.centred_offset(facet);
+    area += share;
+    unit = std::max(unit, hull.input_per_length_unit(facet));
+    volume += share * height;
+    size += share * std::abs(height);
+    slack +=
+        share * (hull.outer_offset(facet) - hull.inner_offset(facet)) * hull.input_per_length_unit(facet);
+    for (std::size_t k = 0; k < normals.size(); ++k) normals[k] += share * hull.normal(facet)[k];
+  }
+  double open = 0.0;
+  for (const double sum : normals) open = std::max(open, std::abs(sum));
+  // Of hulls as thin as rounding areas are what rounding makes of them.
+  const double rank = static_cast<double>(numbers.rank), thickness = numbers.volume / numbers.area * rank;
+  const double error = kRoundoff + kRoundings * rank * numbers.roundoff * unit / thickness;
+  const auto expect = [&](const char* name, double found, double claimed, double bound) {
+    record_check(record, std::abs(found - claimed) <= bound,
+                 [&] { return std::string(name) + ": " + found_and_claimed(found, claimed); });
+  };
+  expect("sum of areas, as a part of the area", area, 1.0, error);
+  expect("sum of areas times normals, as a part of the area", open, 0.0, error);
+  expect("sum of areas times heights, as a part of the area", volume, thickness, error * size + slack);
+}
+
 void verify_numbers(const PointView& points, const HullClaims& hull, ClaimRecord& record) {
   const HullNumbers numbers = hull.numbers();
   double outer = 0.0, inner = 0.0, width = 0.0;
@@ -141,6 +173,7 @@ void verify_numbers(const PointView& points, const HullClaims& hull, ClaimRecord
   };
   expect_size("volume, expected above 0", numbers.volume, numbers.rank);
   expect_size("area, expected above 0", numbers.area, numbers.rank - 1);
+  verify_areas(hull, numbers, record);
 }
 
 }  // namespace

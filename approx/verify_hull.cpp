@@ -31,6 +31,7 @@ class ClaimsOfHull : public HullClaims {
   double outer_offset(FacetId facet) const override { return hull_.outer_offset(facet); }
   double inner_offset(FacetId facet) const override { return hull_.inner_offset(facet); }
   double input_per_length_unit(FacetId facet) const override { return hull_.input_per_length_unit(facet); }
+  double area_of(FacetId facet) const override { return hull_.area_of(facet); }
   std::span<const PointId> vertices_of(FacetId facet) const override { return hull_.vertices_of(facet); }
   std::span<const FacetId> neighbours_of(FacetId facet) const override { return hull_.neighbours_of(facet); }
   std::span<const SimplexId> simplices_of(FacetId facet) const override { return hull_.simplices_of(facet); }

@@ -89,6 +89,10 @@ void HandMadeHull::settle_numbers() {
   }
 }
 
+void HandMadeHull::share_area() {
+  for (HandMadeFacet& facet : facets) facet.area = claimed.area / static_cast<double>(facets.size());
+}
+
 HandMadeHull hand_made_cube(std::size_t d, bool merged, const std::vector<double>& more_points) {
   HandMadeHull hull;
   hull.claimed = {.dimension = d,
@@ -118,6 +122,7 @@ HandMadeHull hand_made_cube(std::size_t d, bool merged, const std::vector<double
   }
   fill_complex(hull, simplices);
   fill_facets(hull);
+  hull.share_area();
   hull.settle_numbers();
   return hull;
 }
@@ -155,6 +160,7 @@ HandMadeHull hand_made_cross_polytope(std::size_t d) {
   }
   fill_complex(hull, simplices);
   fill_facets(hull);
+  hull.share_area();
   hull.settle_numbers();
   return hull;
 }

@@ -18,6 +18,7 @@ struct HandMadeFacet {
   double outer_offset = 0.0;
   double inner_offset = 0.0;
   double unit = 1.0;
+  double area = 0.0;
   std::vector<PointId> vertices;
   std::vector<FacetId> neighbours;
   std::vector<SimplexId> simplices;
@@ -38,6 +39,8 @@ class HandMadeHull : public HullClaims {
   PointView view() const {
     return PointView::row_major(points.data(), points.size() / claimed.dimension, claimed.dimension);
   }
+  /// Shares the claimed area out among the facets, which are all the same.
+  void share_area();
   /// Sets the numbers of the whole hull to what its facets claim.
   void settle_numbers();
 
@@ -53,6 +56,7 @@ class HandMadeHull : public HullClaims {
   double outer_offset(FacetId facet) const override { return facets[facet.value].outer_offset; }
   double inner_offset(FacetId facet) const override { return facets[facet.value].inner_offset; }
   double input_per_length_unit(FacetId facet) const override { return facets[facet.value].unit; }
+  double area_of(FacetId facet) const override { return facets[facet.value].area; }
   std::span<const PointId> vertices_of(FacetId facet) const override { return facets[facet.value].vertices; }
   std::span<const FacetId> neighbours_of(FacetId facet) const override {
     return facets[facet.value].neighbours;

@@ -157,6 +157,9 @@ TEST(VerifyWitness, RotatedCornersWithRoundedPlanesNeedTheirWidths) {
   // The cross polytope's vertices scaled by 1 / 3 are no longer on the rounded planes.
   HandMadeHull hull = hand_made_cross_polytope(5);
   for (double& x : hull.points) x /= 3.0;
+  hull.claimed.area /= 81.0;
+  hull.claimed.volume /= 243.0;
+  hull.share_area();
   for (HandMadeFacet& facet : hull.facets) facet.centred_offset = facet.offset = facet.offset / 3.0;
   const double slack = 0x1p-54;
   for (HandMadeFacet& facet : hull.facets) {
@@ -270,6 +273,12 @@ TEST(VerifyWitness, NumbersOfTheHullAreThoseOfItsFacets) {
   expect_wrong([](HandMadeHull& hull) { hull.claimed.max_facet_width = 0.75; });
   expect_wrong([](HandMadeHull& hull) { hull.claimed.volume = 0.0; });
   expect_wrong([](HandMadeHull& hull) { hull.claimed.area = std::nan(""); });
+  expect_wrong([](HandMadeHull& hull) { hull.claimed.area *= 1.0 + 1e-5; });
+  expect_wrong([](HandMadeHull& hull) { hull.facets[1].area *= 1.0 + 1e-5; });
+  expect_wrong([](HandMadeHull& hull) {  // still closed
+    for (HandMadeFacet& facet : hull.facets) facet.area *= 1.5;
+    hull.claimed.area *= 1.5;
+  });
 }
 
 TEST(VerifyWitness, OtherPointsAreCaught) {
