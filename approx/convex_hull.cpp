@@ -251,6 +251,16 @@ class HullBuilder {
       hull_.simplex_count_ += hull_.pulled_->count_of(FacetId{facet});
   }
 
+  /// Are points so far off the subspace that they span, for its extent, that a proof of being inside in the
+  /// subspace says nothing of planes that have their own rounding? Flat data far from the origin are.
+  bool is_roughly_flat() const {
+    constexpr double kRough = 1e-13;
+    double extent = 0.0;
+    for (std::size_t k = 0; k < frame_.dimension; ++k)
+      extent = std::max(extent, frame_.column_max[k] - frame_.column_min[k]);
+    return distance_off_subspace(points_, frame_) > kRough * extent;
+  }
+
   void make_facets(const KnownHighest& known) {
     const Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
@@ -259,8 +269,10 @@ class HullBuilder {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
     growth_->choose_certificate_points(hull_.layout_.facets);
+    const bool proves_nothing = is_roughly_flat();
+    if (proves_nothing) growth_->want_all();
     detail("vertices", start);
-    certify_facets(known, nullptr);
+    certify_facets(proves_nothing ? KnownHighest() : known, nullptr);
     hull_.simplex_count_ = complex().row_count;
     hull_.simplices_ = std::move(complex());
   }

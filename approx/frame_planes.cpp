@@ -121,6 +121,25 @@ std::vector<double> find_subspace_equations(const Frame& frame) {
   return equations;
 }
 
+double distance_off_subspace(const PointView& points, const Frame& frame) {
+  const std::vector<double> equations = find_subspace_equations(frame);
+  const std::size_t columns = frame.dimension + 1;
+  std::vector<double> point(frame.dimension);
+  double furthest_sq = 0.0;
+  for (std::size_t id = 0; id < points.rows && !equations.empty(); ++id) {
+    points.copy_row(id, point.data());
+    double distance_sq = 0.0;
+    for (std::size_t at = 0; at < equations.size(); at += columns) {
+      double distance = 0.0;  // the centre is in the subspace
+      for (std::size_t k = 0; k < frame.dimension; ++k)
+        distance += equations[at + k] * (point[k] - frame.centre[k]);
+      distance_sq += distance * distance;
+    }
+    furthest_sq = std::max(furthest_sq, distance_sq);
+  }
+  return std::sqrt(furthest_sq);
+}
+
 double sum_error(std::size_t terms, double size) {
   const double rounding = static_cast<double>(terms) * 0x1p-53;
   return rounding / (1.0 - rounding) * size;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/frame.h"
+#include "core/points.h"
 
 namespace ndhull {
 
@@ -41,6 +42,10 @@ class NormalMap {
 /// Rows normal, offset of dimension - rank independent equations normal . x + offset = 0 of the subspace that
 /// the data lie in; empty when that is the whole space.
 std::vector<double> find_subspace_equations(const Frame& frame);
+
+/// How far points are from the subspace at most; 0 where it is the whole space. [distance]
+/// Cost  of flat data a pass over the points.
+double distance_off_subspace(const PointView& points, const Frame& frame);
 
 /// Bound on the error of a computed sum of `terms` products of the given size: gamma_terms * size.
 /// Source  Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5.

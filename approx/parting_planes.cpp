@@ -90,24 +90,13 @@ class Settling {
 }  // namespace
 
 PartingPlaneMap::PartingPlaneMap(const PointView& points, const Frame& frame, std::span<const double> origin)
-    : frame_(frame), origin_(origin), to_input_(frame) {
+    : frame_(frame),
+      origin_(origin),
+      to_input_(frame),
+      off_the_subspace_(distance_off_subspace(points, frame)) {
   for (std::size_t k = 0; k < frame.dimension; ++k) {
     reach_.push_back(std::max(std::abs(frame.column_min[k] - frame.centre[k]),
                               std::abs(frame.column_max[k] - frame.centre[k])));
-  }
-  const std::vector<double> equations = find_subspace_equations(frame);
-  const std::size_t columns = frame.dimension + 1;
-  std::vector<double> point(frame.dimension);
-  for (std::size_t id = 0; id < points.rows && !equations.empty(); ++id) {
-    points.copy_row(id, point.data());
-    double distance_sq = 0.0;
-    for (std::size_t at = 0; at < equations.size(); at += columns) {
-      const std::span<const double> equation(equations.data() + at, frame.dimension);
-      const double distance =
-          plane_value_double({equation, frame.centre, 0.0, 0.0, 1.0}, point).value;  // the centre is in it
-      distance_sq += distance * distance;
-    }
-    off_the_subspace_ = std::max(off_the_subspace_, std::sqrt(distance_sq));
   }
 }
 

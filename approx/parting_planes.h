@@ -41,8 +41,8 @@ class PartingPlaneMap {
   const Frame& frame_;
   std::span<const double> origin_;
   NormalMap to_input_;
-  std::vector<double> reach_;      // one a column: of points, from the centre
-  double off_the_subspace_ = 0.0;  // at most, of any point [distance]
+  double off_the_subspace_;    // at most, of any point [distance]
+  std::vector<double> reach_;  // one a column: of points, from the centre
 };
 
 /// Looks at planes whose gap does not exceed their rounding, or that their vertex is not above: the offset is

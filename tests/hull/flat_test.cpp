@@ -82,6 +82,26 @@ TEST(FlatLaw, StretchedAxesLeaveRankAndFacets) {
   }
 }
 
+/// Far from the origin what was flat is so to the rounding of its coordinates only, and points that are
+/// inside within the flat can be above planes.
+TEST(FlatRegression, FarFromTheOriginNoPointIsAboveAPlane) {
+  for (std::size_t d = 3; d <= 7; ++d) {
+    for (std::size_t rank = 2; rank < d; ++rank) {
+      for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        SCOPED_TRACE("gaussian on a grid, n 100, " + place(rank, d) + ", seed " + std::to_string(seed));
+        PointSet inside = family_points(PointFamily::kGaussian, 100, rank, seed);
+        for (double& x : inside.coordinates) x = std::round(2.0 * x);  // many on a plane
+        PointSet set = embedded(inside, d, seed);
+        for (double& x : set.coordinates) x += 1e10;
+        const Hull hull = hull_of(set);
+        EXPECT_EQ(hull.rank, rank);
+        EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+        expect_sound(hull_of(set, {.triangulate = true}), set);
+      }
+    }
+  }
+}
+
 TEST(FlatExample, CubesInSubspacesAreCubes) {
   for (std::size_t d = 2; d <= 7; ++d) {
     for (std::size_t rank = 1; rank < d; ++rank) {
