@@ -23,8 +23,10 @@ enum class FacetObjective {
 
 /// Which facets may be traded for which error. Nothing set: the exact hull.
 struct Accuracy {
-  Length width;              ///< target: no facet is wider than this (certified); as few facets as possible
-  std::uint64_t facets = 0;  ///< target: at most this many facets, as narrow as possible; 0: no target
+  Length width;  ///< target: no facet is wider than this (certified); as few facets as possible
+  /// Target: at most this many facets, as narrow as possible; 0: no target. Above the points' rank: fewer
+  /// planes bound no region.
+  std::uint64_t facets = 0;
   FacetObjective objective = FacetObjective::kWidth;  ///< what a target `facets` makes small
   Length outside_width;     ///< growth leaves out points that are less than this outside (W)
   Length centrum_radius;    ///< merge while a centrum is less than this below its neighbour's plane (C)

@@ -67,6 +67,12 @@ class HullBuilder {
     describe_input();
     if (frame_.rank == 0) return std::move(hull_);
     const Accuracy& accuracy = options_.accuracy;
+    if (accuracy.facets > 0 && accuracy.facets <= frame_.rank) {
+      throw Error(ErrorCode::kUsage, "target of facets: found " + std::to_string(accuracy.facets) +
+                                         ", expected at least " + std::to_string(frame_.rank + 1) +
+                                         ": the points span " + std::to_string(frame_.rank) +
+                                         " dimensions, and fewer planes bound no region; ask for more");
+    }
     const bool is_exact = accuracy.is_exact() || accuracy.is_for_volume() || frame_.rank == 1;
     std::vector<double> factor;
     if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);

@@ -207,7 +207,9 @@ class Hull {
 /// Returns   every facet with certified outer and inner offsets. All points coplanar, equal, or fewer than
 ///           dimension + 1: the hull inside the affine subspace they span (see Hull).
 /// Throws    Error kEmptyInput no rows; kDimensionTooLow dimension 0; kNotFinite NaN or infinity, with row
-///           and column; kDimensionTooHigh rank above kMaxRank; kTooManyPoints 2^31 rows or more.
+///           and column; kDimensionTooHigh rank above kMaxRank; kTooManyPoints 2^31 rows or more; kOutOfRange
+///           extents too small or too large to state planes for; kUsage a target of facets that bound no
+///           region.
 /// Not promised  the same facets for another seed where data are degenerate below roundoff.
 /// Cost      time and memory grow with the facets of the hull: about 150 bytes each in 8-d, and
 ///           8 rank bytes for each point.

@@ -18,8 +18,8 @@ namespace ndhull {
 /// Shapes   complex: compacted, the interior point at 0. points: rows x rank, in the frame. determinants: of
 ///          the simplices, positive. exact: the coplanar simplices; none: all are facets of their own.
 ///          gradient_factor: as lay_out.
-/// Returns  nothing when there are no more than `count` facets; otherwise `count` facets, or more where fewer
-///          planes bound no region.
+/// Returns  nothing when there are no more than `count` facets; otherwise at most `count` facets.
+/// Throws   Error kUsage where no `count` planes were found that bound a region.
 /// Cost     as choose_by_rays; count x simplices x rank comparisons.
 std::optional<FacetClusters> cover_for_volume(const SimplicialComplex& complex, const double* points,
                                               std::span<const double> determinants,

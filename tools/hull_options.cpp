@@ -55,7 +55,9 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
   add_length("--width", width_, "target: no facet wider than this (certified), as few facets as possible");
   command
       .add_option("--facets", options_.accuracy.facets,
-                  "target: at most this many facets, as narrow as possible")
+                  "target: at most this many facets, as narrow as possible; more than the dimension, since "
+                  "fewer bound "
+                  "no region")
       ->type_name("N")
       ->check(whole_number(1));
   command

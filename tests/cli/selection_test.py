@@ -196,6 +196,32 @@ def test_distance_chooses_planes_that_stay_near_and_says_how_near():
     one_error_line(run("hull", points, "--largest", 4, "--select", "distance", exit_code=1), "usage")
 
 
+def test_facets_that_bound_no_region_are_refused():
+    folder = fresh_folder("few")
+    rbox("30 s D4 t1", folder / "sphere.npy")
+    rbox("c D3", folder / "cube.npy")
+    for objective in ("width", "volume"):
+        for number in (1, 2, 4):
+            done = run("hull", folder / "sphere.npy", "--facets", number, "--objective", objective, exit_code=1)
+            one_error_line(done, "usage")
+            assert f"found {number}, expected at least 5" in done.stderr, done.stderr
+        report = report_of(folder / "sphere.npy", "--facets", 5, "--objective", objective, "--verify")
+        assert report["facets"] == 5 and report["outer_volume"] > report["volume"]
+    # No five sides of a cube bound a region; five planes that are not its sides do.
+    for number in (4, 5):
+        assert report_of(folder / "cube.npy", "--facets", number, "--verify")["facets"] <= number
+        done = run("hull", folder / "cube.npy", "--facets", number, "--objective", "volume", exit_code=1)
+        one_error_line(done, "usage")
+        assert "ask for 6 facets" in done.stderr, done.stderr
+    assert report_of(folder / "cube.npy", "--facets", 6, "--objective", "volume")["facets"] == 6
+    # Of flat points the rank counts, and a point has no facets at all.
+    (folder / "flat.csv").write_text("0,0,0\n1,0,0\n0,1,0\n1,1,0\n0.5,1.5,0\n")
+    assert report_of(folder / "flat.csv", "--facets", 3)["facets"] == 3
+    one_error_line(run("hull", folder / "flat.csv", "--facets", 2, exit_code=1), "usage")
+    (folder / "point.csv").write_text("0,0,0\n0,0,0\n")
+    assert report_of(folder / "point.csv", "--facets", 1)["facets"] == 0
+
+
 def test_facets_for_volume_are_certified_planes_of_the_exact_hull():
     folder = fresh_folder("objective")
     points = folder / "points.npy"
