@@ -174,6 +174,7 @@ LargestFacets largest_facets(const PointView& points, const LargestOptions& opti
     bool is_done = options.method == LargestMethod::kHull && try_hull(points, options, start, result);
     if (!is_done) {
       RayShooter shooter(points);
+      check_extents(shooter.frame());
       const std::size_t rank = shooter.frame().rank;
       if (rank < 2) {
         LargestOptions whole = options;

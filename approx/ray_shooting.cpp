@@ -83,7 +83,6 @@ void ask(Walker& walker, double product_error, float* direction) {
 }  // namespace
 
 RayShooter::RayShooter(const PointView& points, double near) : frame_(fit_frame(points)) {
-  check_extents(frame_);
   point_count_ = points.rows;
   if (frame_.rank == 0) return;
   const std::vector<std::uint32_t> furthest = find_centre(points);

@@ -53,9 +53,49 @@ void write_vertices(OutputFile& file, const HalfspaceIntersection& intersection)
   }
 }
 
+/// The vertices of a polygon once round, counterclockwise; empty where rounding makes it no polygon.
+std::vector<std::uint32_t> polygon_of(const HalfspaceIntersection& intersection) {
+  const auto count = static_cast<std::uint32_t>(intersection.vertex_count());
+  const auto at = [&](std::uint32_t vertex, std::size_t k) { return intersection.vertices[2 * vertex + k]; };
+  std::vector<std::uint32_t> path;
+  double area = 0.0;
+  for (std::uint32_t vertex = 0, last = count; path.size() < count;) {
+    path.push_back(vertex);
+    const auto neighbours = intersection.neighbours_of.row(vertex);
+    if (neighbours.size() != 2) return {};
+    const std::uint32_t next = neighbours[0] == last ? neighbours[1] : neighbours[0];
+    area += (at(vertex, 0) - at(0, 0)) * (at(next, 1) - at(0, 1)) -
+            (at(next, 0) - at(0, 0)) * (at(vertex, 1) - at(0, 1));
+    last = vertex;
+    vertex = next;
+    if ((vertex == 0) != (path.size() == count)) return {};
+  }
+  if (area < 0.0) std::reverse(path.begin(), path.end());
+  return path;
+}
+
+/// Halfspaces that are not redundant: ascending, those of a polygon counterclockwise from the first of them.
+std::vector<std::uint32_t> ordered_halfspaces(const HalfspaceIntersection& intersection) {
+  const std::vector<std::uint32_t>& ascending = intersection.non_redundant;
+  if (intersection.dimension != 2 || intersection.rank != 2) return ascending;
+  const std::vector<std::uint32_t> path = polygon_of(intersection);
+  std::vector<std::uint32_t> ids;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const auto other = intersection.halfspaces_of.row(path[(k + 1) % path.size()]);
+    for (const std::uint32_t id : intersection.halfspaces_of.row(path[k])) {
+      if (std::find(other.begin(), other.end(), id) == other.end()) continue;
+      if (std::binary_search(ascending.begin(), ascending.end(), id)) ids.push_back(id);
+    }
+  }
+  if (!std::is_permutation(ids.begin(), ids.end(), ascending.begin(), ascending.end())) return ascending;
+  std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
 void write_non_redundant(OutputFile& file, const HalfspaceIntersection& intersection) {
-  file.print("{}\n", intersection.non_redundant.size());
-  for (const std::uint32_t id : intersection.non_redundant) file.print("{}\n", id);
+  const std::vector<std::uint32_t> ids = ordered_halfspaces(intersection);
+  file.print("{}\n", ids.size());
+  for (const std::uint32_t id : ids) file.print("{}\n", id);
 }
 
 /// Row h of the transposed table: the vertices in halfspace h.

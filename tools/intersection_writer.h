@@ -12,8 +12,8 @@ namespace ndhull {
 
 /// Writes the formats in the order asked for, as qhalf prints them: Fp (dimension, count, vertices), Fv and i
 /// (of each vertex the halfspaces in it, i without their number), Fn (its neighbours), Fx (halfspaces that
-/// are not redundant), FN (of each halfspace its vertices). Ids count from 0. Equalities of a flat
-/// intersection are left out.
+/// are not redundant; in 2-d counterclockwise), FN (of each halfspace its vertices). Ids count from 0.
+/// Equalities of a flat intersection are left out.
 ///
 /// Throws  Error kUsage for a name that is none of these, before anything is written; kFileWrite.
 void write_intersection_formats(OutputFile& file, const std::vector<std::string>& formats,

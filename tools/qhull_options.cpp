@@ -92,7 +92,10 @@ class Parser {
   bool is_qhalf() const { return command_.program == QhullProgram::kQhalf; }
   void format(const std::string& name, bool is_for_qhalf) {
     if (is_qhalf() && !is_for_qhalf) refuse("format of qhalf");
-    command_.formats.push_back(name);
+    // Qhull prints each format once, where it was first asked for; only the command line comes each time.
+    const auto& known = command_.formats;
+    const bool is_repeated = std::find(known.begin(), known.end(), name) != known.end();
+    if (!is_repeated || name == "FQ") command_.formats.push_back(name);
   }
 
   void read_option(char letter) {

@@ -282,6 +282,32 @@ def test_qhalf_is_qhulls_for_simple_and_degenerate_polytopes():
             assert one["Fs"].split()[:8] == other["Fs"].split()[:8], (arguments, one["Fs"], other["Fs"])
 
 
+def test_repeated_formats_are_printed_once():
+    points = points_of("12 D3 t1")
+    for options in ("Fx Fx", "n n", "Fx n Fx", "n p n p", "FS FS", "Fs Fs", "Fv i Fv", "o o", "FN FV FN FV", "FQ n FQ"):
+        assert len(ours(options, points).splitlines()) == len(theirs(options, points).splitlines()), options
+    for repeated, once in (("Fx Fx", "Fx"), ("FA n FA n", "FA n"), ("n Fx n p Fx", "n Fx p")):
+        assert ours(repeated, points) == ours(once, points), repeated
+    rows = shell(f"{QHULL} FV n", points).encode()
+    for repeated, once in (("Fp Fp", "Fp"), ("Fv Fx Fv", "Fv Fx")):
+        assert run("qhalf", repeated, stdin=rows).stdout == run("qhalf", once, stdin=rows).stdout
+
+
+def test_halfspaces_of_polygons_go_round_as_qhulls_do():
+    def from_zero(text):
+        count, *ids = text.split()
+        at = ids.index("0") if "0" in ids else 0
+        assert int(count) == len(ids) > 3
+        return ids[at:] + ids[:at]
+
+    for arguments in ["12 D2 t1", "40 s D2 t2", "15 D2 t3", "9 D2 t4", "c D2", "25 D2 t5 O3"]:
+        rows = shell(f"{QHULL} FV n", points_of(arguments)).encode()
+        assert from_zero(run("qhalf", "Fx", stdin=rows).stdout) == from_zero(shell(f"{QHALF} Fx", rows)), arguments
+    # A side that touches only a corner is redundant, and so is one outside.
+    rows = b"3\n6\n-1 0 -1\n1 0 -1\n0 1 -1\n0 -1 -1\n1 1 -2\n1 2 -9\n"
+    assert run("qhalf", "Fx", stdin=rows).stdout.split() in (["4", "0", "3", "1", "2"], ["5", "0", "3", "1", "4", "2"])
+
+
 def test_qhalf_says_why_there_are_no_vertices():
     rows = b"3\n2\n-1 0 0\n0 -1 0\n"
     one_error_line(run("qhalf", "Fp", stdin=rows, exit_code=1), "bad-halfspace")
