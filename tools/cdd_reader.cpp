@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+
+#include "tools/rational.h"
 
 namespace ndhull {
 namespace {
@@ -30,9 +33,36 @@ bool starts_with_word(std::string_view text, std::string_view word) {
   return text.starts_with(word) && (text.size() == word.size() || is_blank(text[word.size()]));
 }
 
+[[noreturn]] void fail_quotient(const TextSource& source, const char* at, std::size_t column) {
+  source.fail(
+      ErrorCode::kBadNumber, at,
+      fmt::format("column {}: found a quotient that is not finite, expected p/q with q != 0; correct it",
+                  column));
+}
+
+/// Reads p/q of whole numbers with more digits than doubles hold: these are divided first and rounded once.
+/// Null for anything else.
+const char* read_long_rational(const TextSource& source, const char* at, const char* end, std::size_t column,
+                               double& value) {
+  constexpr std::ptrdiff_t kDigitsOfDoubles = 15;
+  const auto is_of_number = [](char letter) { return is_digit(letter) || letter == '+' || letter == '-'; };
+  const char* const slash = std::find_if_not(at, end, is_of_number);
+  if (slash == end || *slash != '/') return nullptr;
+  const char* const stop = std::find_if_not(slash + 1, end, is_of_number);
+  if (stop != end && !is_blank(*stop)) return nullptr;
+  if (slash - at <= kDigitsOfDoubles && stop - slash - 1 <= kDigitsOfDoubles) return nullptr;
+  const auto found = nearest_quotient({at, static_cast<std::size_t>(slash - at)},
+                                      {slash + 1, static_cast<std::size_t>(stop - slash - 1)});
+  if (!found) return nullptr;
+  if (!std::isfinite(*found)) fail_quotient(source, at, column);
+  value = *found;
+  return stop;
+}
+
 /// An entry: a number or p/q. Returns the place behind it.
 const char* read_entry(const TextSource& source, const char* at, const char* end, std::size_t column,
                        double& value) {
+  if (const char* const behind = read_long_rational(source, at, end, column, value)) return behind;
   const char* stop = parse_number(at, end, value);
   if (stop == nullptr) source.fail_number(at, column);
   if (stop != end && *stop == '/') {
@@ -40,12 +70,7 @@ const char* read_entry(const TextSource& source, const char* at, const char* end
     stop = parse_number(stop + 1, end, denominator);
     if (stop == nullptr || (stop != end && !is_blank(*stop))) source.fail_number(at, column);
     value /= denominator;
-    if (!std::isfinite(value)) {
-      source.fail(
-          ErrorCode::kBadNumber, at,
-          fmt::format("column {}: found a quotient that is not finite, expected p/q with q != 0; correct it",
-                      column));
-    }
+    if (!std::isfinite(value)) fail_quotient(source, at, column);
   }
   if (stop != end && !is_blank(*stop)) source.fail_number(at, column);
   return stop;

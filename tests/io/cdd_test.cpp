@@ -1,6 +1,7 @@
 // Files of cdd and lrs, and halfspaces in all text formats.
 #include "tests/io/io_test_support.h"
 #include "tools/halfspace_reader.h"
+#include "tools/rational.h"
 
 namespace ndhull {
 namespace {
@@ -26,6 +27,44 @@ TEST(CddPointsExample, IntegersRationalsAndRealsAfterTheLeadingOne) {
   EXPECT_EQ(file.view().dimension, 2U);
   EXPECT_EQ(rows_of(file.view()), (Values{0, 0, 0.5, 0, 0, -0.75, 6172839450617283945.0, 1}));
   EXPECT_EQ(rows_of(parse(content, "-").view()), rows_of(file.view())) << "content tells the format";
+}
+
+TEST(CddPointsExample, RationalsOfAnyLengthAreRoundedOnce) {
+  const std::string ones(400, '1'), zeros(399, '0');
+  const std::string content = "V-representation\nbegin\n3 3 rational\n1 " + ones + "/1" + zeros + " -" +
+                              ones + "/" + ones + "\n1 1/" + ones + " +3" + zeros + "/-2" + zeros + "\n1 " +
+                              // 1 + 2^-53 and a little: just above a tie. Divided as doubles it would be 1.
+                              "9007199254740993000001/9007199254740992000000 1/3\nend\n";
+  EXPECT_EQ(rows_of(parse(content, "a.ext").view()),
+            (Values{1.1111111111111112, -1.0, 0.0, -1.5, 1.0000000000000002, 1.0 / 3.0}));
+}
+
+TEST(CddPointsLaw, LongRationalsAreTheNearestDoubles) {
+  // A double times 10^20 + 7 over the same number, and what is next to half a unit above.
+  for (const double value : {1.0, 3.0, 0.1, 1e-300, 5e300, 1e15 + 1.0, 0x1p-1022}) {
+    int exponent = 0;
+    const auto bits = static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    exponent -= 53;
+    std::string p = std::to_string(bits), q = "1";
+    const auto doubled = [](std::string number) {
+      int carry = 0;
+      for (auto digit = number.rbegin(); digit != number.rend(); ++digit) {
+        const int twice = 2 * (*digit - '0') + carry;
+        *digit = static_cast<char>('0' + twice % 10);
+        carry = twice / 10;
+      }
+      return carry > 0 ? "1" + number : number;
+    };
+    for (; exponent > 0; --exponent) p = doubled(p);
+    for (; exponent < 0; ++exponent) q = doubled(q);
+    EXPECT_EQ(nearest_quotient(p, q), value);
+    EXPECT_EQ(nearest_quotient("-" + p + std::string(30, '0'), "+" + q + std::string(30, '0')), -value);
+    EXPECT_EQ(nearest_quotient(p + std::string(29, '0') + "1", q + std::string(30, '0')), value);
+  }
+  EXPECT_EQ(nearest_quotient("9007199254740993", "1"), 9007199254740992.0) << "halves to even";
+  EXPECT_EQ(nearest_quotient("9007199254740995", "1"), 9007199254740996.0);
+  EXPECT_EQ(nearest_quotient("1" + std::string(400, '0'), "1"), HUGE_VAL);
+  for (const char* const q : {"0", "", "-", "1.5", "2e3", "1-2"}) EXPECT_FALSE(nearest_quotient("1", q)) << q;
 }
 
 TEST(CddPointsExample, TheCountMayBeOpenAsLrsWritesIt) {
