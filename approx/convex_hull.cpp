@@ -96,6 +96,7 @@ class HullBuilder {
     }
     if (!clusters_.cluster_of.empty()) clusters_.cluster_of.resize(complex().row_count);
     merge();
+    if (!is_bounded_) return for_width_instead();
     if (clusters_.count > 0) known = KnownHighest();  // facets are no longer the rows
     make_facets(known);
     seconds(Phase::kMerge) += seconds_since(merge_start);
@@ -116,6 +117,7 @@ class HullBuilder {
     hull_.interior_point = frame_.centre;
     hull_.reference = frame_.centre;
     hull_.length_unit_ = LengthUnit(frame_, options_.unit_cube);
+    hull_.chosen.objective = options_.accuracy.objective;
     if (frame_.rank == 0) hull_.vertices.push_back(PointId{0});
     hull_.subspace_equations = find_subspace_equations(frame_);
   }
@@ -178,12 +180,21 @@ class HullBuilder {
   /// Fewer facets than the exact ones, if fewer were asked for.
   void choose_for_volume(std::span<const double> determinants) {
     check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
-    std::optional<FacetClusters> few =
+    std::optional<VolumeCover> few =
         cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
                          gradient_factor(frame_, hull_.length_unit_));
     if (!few) return;
-    clusters_ = std::move(*few);
+    is_bounded_ = few->is_bounded;
+    clusters_ = std::move(few->clusters);
     hull_.is_approximate = true;
+  }
+
+  /// So few of the exact hull's planes bound no region; others do.
+  Hull for_width_instead() {
+    growth_.reset();
+    HullOptions options = options_;
+    options.accuracy.objective = FacetObjective::kWidth;
+    return HullBuilder(points_, options, start_).run();
   }
 
   std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }
@@ -257,16 +268,6 @@ class HullBuilder {
       hull_.simplex_count_ += hull_.pulled_->count_of(FacetId{facet});
   }
 
-  /// Are points so far off the subspace that they span, for its extent, that a proof of being inside in the
-  /// subspace says nothing of planes that have their own rounding? Flat data far from the origin are.
-  bool is_roughly_flat() const {
-    constexpr double kRough = 1e-13;
-    double extent = 0.0;
-    for (std::size_t k = 0; k < frame_.dimension; ++k)
-      extent = std::max(extent, frame_.column_max[k] - frame_.column_min[k]);
-    return distance_off_subspace(points_, frame_) > kRough * extent;
-  }
-
   void make_facets(const KnownHighest& known) {
     const Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
@@ -275,7 +276,7 @@ class HullBuilder {
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
     }
     growth_->choose_certificate_points(hull_.layout_.facets);
-    const bool proves_nothing = is_roughly_flat();
+    const bool proves_nothing = is_roughly_flat(points_, frame_);
     if (proves_nothing) growth_->want_all();
     detail("vertices", start);
     certify_facets(proves_nothing ? KnownHighest() : known, nullptr);
@@ -313,6 +314,7 @@ class HullBuilder {
   Hull hull_;
   Frame frame_;
   std::optional<CertifiedGrowth> growth_;
+  bool is_bounded_ = true;  // by the planes that were chosen for volume
   FacetClusters clusters_;  // of an approximate hull; none: coplanar simplices are merged
   HugeArray<double> determinants_;
   std::vector<bool> is_vertex_;

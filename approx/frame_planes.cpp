@@ -140,6 +140,14 @@ double distance_off_subspace(const PointView& points, const Frame& frame) {
   return std::sqrt(furthest_sq);
 }
 
+bool is_roughly_flat(const PointView& points, const Frame& frame) {
+  constexpr double kRough = 1e-13;
+  double extent = 0.0;
+  for (std::size_t k = 0; k < frame.dimension; ++k)
+    extent = std::max(extent, frame.column_max[k] - frame.column_min[k]);
+  return distance_off_subspace(points, frame) > kRough * extent;
+}
+
 double sum_error(std::size_t terms, double size) {
   const double rounding = static_cast<double>(terms) * 0x1p-53;
   return rounding / (1.0 - rounding) * size;

@@ -47,6 +47,10 @@ std::vector<double> find_subspace_equations(const Frame& frame);
 /// Cost  of flat data a pass over the points.
 double distance_off_subspace(const PointView& points, const Frame& frame);
 
+/// Are points so far off the subspace, for its extent, that a proof of being inside in the subspace says
+/// nothing of planes that have their own rounding? Flat data far from the origin are.
+bool is_roughly_flat(const PointView& points, const Frame& frame);
+
 /// Bound on the error of a computed sum of `terms` products of the given size: gamma_terms * size.
 /// Source  Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5.
 double sum_error(std::size_t terms, double size);

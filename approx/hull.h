@@ -79,6 +79,9 @@ std::string_view to_string(HullStatus status);
 
 /// What an approximate hull was made with; lengths resolved, in the length unit.
 struct AccuracyChosen {
+  /// What a target number of facets made small: not the volume where so few of the exact planes bound no
+  /// region.
+  FacetObjective objective = FacetObjective::kWidth;
   double outside_width = 0.0;  ///< growth left out what was less outside; 0: nothing
   double slab_width = 0.0;     ///< facets were sought within slabs of this width; 0: not by slabs
   double width_cap = 0.0;      ///< 0: none was needed

@@ -32,9 +32,14 @@ Json length(const Length& asked) {
          "%";
 }
 
+const char* name_of(FacetObjective objective) {
+  return objective == FacetObjective::kVolume ? "volume" : "width";
+}
+
 /// What was chosen for the accuracy asked for; lengths resolved.
 Json chosen_of(const AccuracyChosen& chosen) {
-  return {{"outside_width", chosen.outside_width},
+  return {{"objective", name_of(chosen.objective)},
+          {"outside_width", chosen.outside_width},
           {"slab_width", limit(chosen.slab_width)},
           {"width_cap", limit(chosen.width_cap)},
           {"merges", chosen.merges},
@@ -52,7 +57,7 @@ Json options_of(const ReportContext& context) {
   const Accuracy& accuracy = options.accuracy;
   Json json{{"width", length(accuracy.width)},
             {"facets", limit(accuracy.facets)},
-            {"objective", accuracy.objective == FacetObjective::kVolume ? "volume" : "width"},
+            {"objective", name_of(accuracy.objective)},
             {"outside_width", length(accuracy.outside_width)},
             {"centrum_radius", length(accuracy.centrum_radius)},
             {"max_cosine", accuracy.max_cosine <= 1.0 ? Json(accuracy.max_cosine) : Json(nullptr)},

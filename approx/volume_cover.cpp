@@ -10,7 +10,6 @@
 #include "approx/plane_candidates.h"
 #include "approx/volume_rays.h"
 #include "core/blocks.h"
-#include "core/error.h"
 #include "core/ids.h"
 
 namespace ndhull {
@@ -125,20 +124,14 @@ std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, co
 
 }  // namespace
 
-std::optional<FacetClusters> cover_for_volume(const SimplicialComplex& complex, const double* points,
-                                              std::span<const double> determinants,
-                                              const FacetClusters& exact, std::uint64_t count,
-                                              std::span<const double> gradient_factor) {
+std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, const double* points,
+                                            std::span<const double> determinants, const FacetClusters& exact,
+                                            std::uint64_t count, std::span<const double> gradient_factor) {
   const ExactFacets facets = list_facets(complex, determinants, exact);
   if (facets.volumes.size() <= count) return std::nullopt;
   const RowMatrix planes = choose_planes(facets, count);
-  if (static_cast<std::uint64_t>(planes.rows()) > count) {
-    throw Error(ErrorCode::kUsage,
-                "objective volume: found no " + std::to_string(count) +
-                    " of the exact hull's planes that bound a region, expected some; ask for " +
-                    std::to_string(planes.rows()) +
-                    " facets, which do, or for the objective width, whose planes are no facets'");
-  }
+  if (static_cast<std::uint64_t>(planes.rows()) > count)
+    return VolumeCover{.is_bounded = false, .clusters = {}};
   FacetClusters clusters;
   clusters.cluster_of = assign_simplices(complex, points, planes, gradient_factor);
   // A plane that rounding makes the same as another may get no simplex: the other stands for both.
@@ -152,7 +145,7 @@ std::optional<FacetClusters> cover_for_volume(const SimplicialComplex& complex, 
     }
     cluster = found;
   }
-  return clusters;
+  return VolumeCover{.is_bounded = true, .clusters = std::move(clusters)};
 }
 
 }  // namespace ndhull

@@ -10,6 +10,13 @@
 
 namespace ndhull {
 
+/// Facets that planes were chosen for.
+struct VolumeCover {
+  bool is_bounded =
+      true;  ///< false: no `count` planes were found that bound a region, and there are no clusters
+  FacetClusters clusters;
+};
+
 /// Chooses `count` of the facets' planes and gives every simplex to one of them.
 ///
 /// Method   choose_by_rays (volume_rays.h) among the planes of the facets, of more than 20,000 the largest. A
@@ -19,11 +26,9 @@ namespace ndhull {
 ///          the simplices, positive. exact: the coplanar simplices; none: all are facets of their own.
 ///          gradient_factor: as lay_out.
 /// Returns  nothing when there are no more than `count` facets; otherwise at most `count` facets.
-/// Throws   Error kUsage where no `count` planes were found that bound a region.
 /// Cost     as choose_by_rays; count x simplices x rank comparisons.
-std::optional<FacetClusters> cover_for_volume(const SimplicialComplex& complex, const double* points,
-                                              std::span<const double> determinants,
-                                              const FacetClusters& exact, std::uint64_t count,
-                                              std::span<const double> gradient_factor);
+std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, const double* points,
+                                            std::span<const double> determinants, const FacetClusters& exact,
+                                            std::uint64_t count, std::span<const double> gradient_factor);
 
 }  // namespace ndhull

@@ -50,6 +50,9 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
       fmt::format("facets    {}: {} simplicial, {} merged; {} simplices\n", grouped(hull.facet_count()),
                   grouped(hull.simplicial_facet_count()),
                   grouped(hull.facet_count() - hull.simplicial_facet_count()), grouped(hull.simplex_count()));
+  if (hull.chosen.objective != context.options.accuracy.objective) {
+    text += "objective width: so few of the exact hull's planes bound no region, others do\n";
+  }
   if (context.selection != nullptr) text += describe_selection(*context.selection, context.outer_distance);
   if (hull.rank > 0) {
     // The facets of a segment are its two ends, which are counted.

@@ -80,29 +80,24 @@ TEST(VolumeObjective, IsTheExactHullWhenThatHasNoMoreFacets) {
   }
 }
 
-// Or it is said that so few planes were not found.
+// By other planes where so few of the exact hull's bound no region.
 TEST(VolumeObjectiveLaw, HardInputIsEnclosedByNoMoreFacetsThanAskedFor) {
-  std::size_t enclosed = 0, refused = 0;
+  std::size_t by_volume = 0, by_width = 0;
   for (std::size_t d = 2; d <= 4; ++d) {
     for (const DegenerateCase& hard : degenerate_cases(40, d, 5)) {
       const Hull exact = hull_of(hard.points);
       for (const std::size_t more : {1U, 4U}) {
         SCOPED_TRACE(hard.description + ", d " + std::to_string(d) + ", " +
                      std::to_string(exact.rank + more));
-        try {
-          const Hull hull = hull_of(hard.points, for_volume(exact.rank + more));
-          expect_certified(hull, hard.points);
-          EXPECT_LE(hull.facet_count(), std::min(exact.facet_count(), exact.rank + more));
-          ++enclosed;
-        } catch (const Error& error) {
-          EXPECT_EQ(error.code(), ErrorCode::kUsage);
-          EXPECT_NE(std::string(error.what()).find("which do"), std::string::npos) << error.what();
-          ++refused;
-        }
+        const Hull hull = hull_of(hard.points, for_volume(exact.rank + more));
+        expect_certified(hull, hard.points);
+        EXPECT_LE(hull.facet_count(), std::min(exact.facet_count(), exact.rank + more));
+        ++(hull.chosen.objective == FacetObjective::kVolume ? by_volume : by_width);
       }
     }
   }
-  EXPECT_GT(enclosed, 2 * refused);
+  EXPECT_GT(by_volume, 2 * by_width);
+  EXPECT_GT(by_width, 0U);
 }
 
 TEST(VolumeObjectiveLaw, TheResultDoesNotDependOnThreads) {
