@@ -50,9 +50,11 @@ void mark_flat(const SimplicialComplex& complex, const double* points, double to
 /// solved
 ///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
 ///         has no plane of its own to speak of.
-/// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination, with partial pivoting where
-/// planes are
-///         replaced or where without it the solved plane differs from growth's by more than 1e-11.
+/// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination, with partial pivoting for
+/// simplices
+///         whose planes are replaced, and where without it the solved plane differs from growth's by more
+///         than 1e-11 or a diagonal entry below 1e-4 is met. What a simplex gets does not depend on those
+///         beside it.
 void solve_simplices(SimplicialComplex& complex, const double* points,
                      std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 
