@@ -88,12 +88,6 @@ std::vector<PartingPlane> ends_of_segment(const NearOrigin& points, const RaySho
 /// Are points vertices? Walks of a shooter, and what their ends prove.
 class WalkEnds {
  public:
-  struct InsidePoint {
-    std::uint32_t id;
-    std::vector<std::uint32_t> basis;
-    std::vector<double> weights;
-  };
-
   /// `origin` was taken off the points.
   WalkEnds(const PointView& points, std::span<const double> origin, RayShooter& shooter)
       : shooter_(shooter),
@@ -141,6 +135,12 @@ class WalkEnds {
   bool was_stopped = false;
 
  private:
+  struct InsidePoint {
+    std::uint32_t id;
+    std::vector<std::uint32_t> basis;
+    std::vector<double> weights;
+  };
+
   void note(std::uint32_t id, WalkResult& walk) {
     switch (walk.end) {
       case WalkEnd::kInside: {

@@ -17,14 +17,14 @@ struct PartingPlane {
   std::uint32_t vertex = 0;
   std::vector<double> normal;  ///< of length 1, input units
   double offset = 0.0;         ///< normal . x + offset is above 0 at the vertex
-  /// The vertex is above the plane and the others are below it by this, proven but for the rounding of
-  /// `normal` and `offset`; 0: nothing is proven. [distance]
+  /// The others are below the plane by this, proven but for the rounding of `normal` and `offset`; 0: nothing
+  /// is proven. [distance]
   double gap = 0.0;
   /// How large the rounding of the numbers may be. [distance]
   double rounding = 0.0;
   bool is_settled = false;
-  std::vector<std::uint32_t>
-      above;  ///< when settled: other points, as good as equal to the vertex, above the plane
+  /// When settled: other points above the plane, as good as equal to the vertex.
+  std::vector<std::uint32_t> above;
 };
 
 /// Planes of a frame in input units, for points that it was fitted to.
