@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/chosen_lanes-inl.h"
 #include "core/dimension_switch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -76,9 +77,11 @@ std::size_t list_near_groups(const PointGroups& points, const float* normal, flo
     auto reach = hn::MulAdd(length, hn::LoadU(tag, points.radii() + begin), base);
     for (std::size_t k = 0; k < width; ++k)
       reach = hn::MulAdd(hn::Set(tag, normal[k]), hn::LoadU(tag, points.centres(k) + begin), reach);
-    const auto is_near = hn::RebindMask(id_tag, hn::Not(hn::Lt(reach, hn::Zero(tag))));
-    hn::StoreU(hn::Compress(ids, is_near), id_tag, near + count);
-    count += hn::CountTrue(id_tag, is_near);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(tag, hn::Not(hn::Lt(reach, hn::Zero(tag))), bytes);
+    const std::uint32_t is_near = bytes[0] | std::uint32_t{bytes[1]} << 8;
+    hn::StoreU(ChosenLanes(id_tag, is_near).to_front(ids), id_tag, near + count);
+    count += static_cast<std::size_t>(__builtin_popcount(is_near));
     ids = hn::Add(ids, next);
   }
   return count;

@@ -22,6 +22,7 @@
 
 #include <cstring>
 
+#include "core/chosen_lanes-inl.h"
 #include "core/grower-inl.h"
 #include "core/row_slots-inl.h"
 
@@ -71,22 +72,22 @@ HWY_INLINE std::size_t Grower<D>::begin_turns(std::size_t base, std::size_t inde
   const std::uint32_t visible = visible_[ridge.visible_index];
   const std::uint32_t* ids = vertices(visible);
   const std::uint32_t* around = neighbours(visible);
-  const std::uint32_t to_turn = slots_to_turn<D>(ids, ridge.slot);
   const auto new_bit = hn::Set(tag, kNewBit);
+  const std::uint32_t is_old = slots_where<D>(around, [&](auto next) HWY_ATTR {
+    return hn::Eq(hn::And(next, new_bit), hn::Zero(RowTag<D>()));
+  });
+  const std::uint32_t going_on = slots_to_turn<D>(ids, ridge.slot) & is_old;
   const auto pivot = hn::Set(tag, ids[ridge.slot]), from = hn::Set(tag, visible);
   const auto origin = hn::Set(tag, static_cast<std::uint32_t>((index - base) * 16));
   for (std::size_t begin = 0; begin < D; begin += lanes) {
-    const auto next = hn::LoadU(tag, around + begin);
-    const std::uint32_t shifted = to_turn >> begin;
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(shifted),
-                                   static_cast<std::uint8_t>(shifted >> 8)};
-    const auto goes_on = hn::And(hn::LoadMaskBits(tag, bytes), hn::Eq(hn::And(next, new_bit), hn::Zero(tag)));
+    const std::uint32_t bits = going_on >> begin & ((1u << lanes) - 1);
+    const ChosenLanes chosen(tag, bits);
     const auto here = hn::Or(origin, hn::LoadU(tag, kSlots + begin));
-    hn::StoreU(hn::Compress(here, goes_on), tag, turns.origin + count);
-    hn::StoreU(hn::Compress(next, goes_on), tag, turns.to + count);
+    hn::StoreU(chosen.to_front(here), tag, turns.origin + count);
+    hn::StoreU(chosen.to_front(hn::LoadU(tag, around + begin)), tag, turns.to + count);
     hn::StoreU(from, tag, turns.from + count);
     hn::StoreU(pivot, tag, turns.pivot + count);
-    count += hn::CountTrue(tag, goes_on);
+    count += static_cast<std::size_t>(__builtin_popcount(bits));
   }
   return count;
 }
