@@ -50,11 +50,17 @@ void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t beg
     const double gauge_visible = visible_gauge_[ridge.visible_index];
     const double gauge_hidden = gauge_above<D>(below, apex);
     const double t = (gauge_visible - shift) / (gauge_visible - gauge_hidden);
-    for (std::size_t k = 0; k < D; ++k) made[k] = __builtin_fma(t, below[k] - above[k], above[k]);
+    for_row<double, D>([&](auto tag, std::size_t k) HWY_ATTR {
+      const auto from = hn::LoadU(tag, above + k);
+      const auto along = hn::Sub(hn::LoadU(tag, below + k), from);
+      hn::StoreU(hn::MulAdd(hn::Set(tag, t), along, from), tag, made + k);
+    });
 
     const std::uint32_t* HWY_RESTRICT old_vertices = vertices(visible);
     std::uint32_t* HWY_RESTRICT made_vertices = vertices(row);
-    for (std::size_t k = 0; k < D; ++k) made_vertices[k] = old_vertices[k];
+    for_row<std::uint32_t, D>([&](auto tag, std::size_t k) HWY_ATTR {
+      hn::StoreU(hn::LoadU(tag, old_vertices + k), tag, made_vertices + k);
+    });
     made_vertices[ridge.slot] = apex_id;
     state_[row] = SimplexState::kLive;
     neighbours(visible)[ridge.slot] = row | kNewBit;
@@ -69,7 +75,9 @@ HWY_INLINE void Grower<D>::join_siblings(std::size_t index) {
   const HorizonRidge ridge = horizon_[index];
   const std::uint32_t* HWY_RESTRICT around = neighbours(visible_[ridge.visible_index]);
   std::uint32_t* HWY_RESTRICT made = neighbours(new_rows_[index]);
-  for (std::size_t k = 0; k < D; ++k) made[k] = around[k] & ~kNewBit;
+  for_row<std::uint32_t, D>([&](auto tag, std::size_t k) HWY_ATTR {
+    hn::StoreU(hn::AndNot(hn::Set(tag, kNewBit), hn::LoadU(tag, around + k)), tag, made + k);
+  });
   made[ridge.slot] = ridge.hidden;
 }
 

@@ -53,6 +53,17 @@ HWY_INLINE std::uint32_t slot_of(const std::uint32_t* row, std::uint32_t value) 
       __builtin_ctz(slots_where<D>(row, [&](auto ids) HWY_ATTR { return hn::Eq(ids, wanted); })));
 }
 
+/// Calls visit(tag, begin) for vectors that cover a row of D values. The last one may overlap the one before:
+/// nothing behind the row is touched.
+template <class T, std::size_t D, class Visit>
+HWY_INLINE void for_row(const Visit& visit) {
+  constexpr std::size_t kMost = D >= 8 ? 8 : D >= 4 ? 4 : 2;
+  const hn::CappedTag<T, kMost> tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  for (std::size_t begin = 0; begin + lanes <= D; begin += lanes) visit(tag, begin);
+  if (D % lanes != 0) visit(tag, D - lanes);
+}
+
 /// Fetches a row of the topology.
 template <std::size_t D>
 HWY_INLINE void fetch_row(const std::uint32_t* topology, std::uint32_t row) {
