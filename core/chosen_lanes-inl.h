@@ -1,7 +1,7 @@
 // Lanes of a vector moved to its front. Included once per target by sources that list what they find.
 //
-// hn::Compress does that, but where there is no instruction for it gcc 12 copies Highway's table of a kilobyte
-// to the stack at each call: half of the time of a loop that lists what is near.
+// hn::Compress does that, but where there is no instruction for it gcc 12 copies Highway's table of a
+// kilobyte to the stack at each call: half of the time of a loop that lists what is near.
 
 #if defined(NDHULL_CHOSEN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NDHULL_CHOSEN_LANES_INL_H_

@@ -73,9 +73,8 @@ HWY_INLINE std::size_t Grower<D>::begin_turns(std::size_t base, std::size_t inde
   const std::uint32_t* ids = vertices(visible);
   const std::uint32_t* around = neighbours(visible);
   const auto new_bit = hn::Set(tag, kNewBit);
-  const std::uint32_t is_old = slots_where<D>(around, [&](auto next) HWY_ATTR {
-    return hn::Eq(hn::And(next, new_bit), hn::Zero(RowTag<D>()));
-  });
+  const std::uint32_t is_old = slots_where<D>(
+      around, [&](auto next) HWY_ATTR { return hn::Eq(hn::And(next, new_bit), hn::Zero(RowTag<D>())); });
   const std::uint32_t going_on = slots_to_turn<D>(ids, ridge.slot) & is_old;
   const auto pivot = hn::Set(tag, ids[ridge.slot]), from = hn::Set(tag, visible);
   const auto origin = hn::Set(tag, static_cast<std::uint32_t>((index - base) * 16));
