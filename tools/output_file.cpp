@@ -46,6 +46,7 @@ OutputFile::OutputFile(const std::string& path) : name_(path == "-" ? "standard 
   target_ = resolve(path);
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = fmt::format("{}.{}-{}.part", target_, ::getpid(), attempt);
+    doomed_ = DoomedFile(temporary_);  // before it is there: a signal may come at any time
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && (errno != EEXIST || attempt == kNameAttempts)) {
       const int error_number = errno;
@@ -53,7 +54,6 @@ OutputFile::OutputFile(const std::string& path) : name_(path == "-" ? "standard 
       fail(error_number);
     }
   }
-  doomed_ = DoomedFile(temporary_);
   // Best effort: some file systems have no permissions.
   if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
 }
