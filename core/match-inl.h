@@ -57,6 +57,10 @@ struct Turns {
   std::uint32_t from[kCapacity + kSpare];    // visible simplex that is left
   std::uint32_t to[kCapacity + kSpare];      // and the one that is entered
   std::uint32_t pivot[kCapacity + kSpare];   // vertex of the ridge between them that is not in S
+  // Those that have ended and are not entered yet.
+  std::uint32_t ended[kCapacity];    // their origins
+  std::uint32_t partner[kCapacity];  // new simplex that was found
+  std::uint32_t back[kCapacity];     // slot of the neighbour in its row
 };
 
 alignas(64) constexpr std::uint32_t kSlots[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -91,13 +95,13 @@ HWY_INLINE std::size_t Grower<D>::begin_turns(std::size_t base, std::size_t inde
   return count;
 }
 
-/// One step of each turn; what ends is entered on both sides. Returns how many go on.
+/// One step of each turn, then what has ended is entered on both sides: by then the rows, which lie anywhere,
+/// have come. Returns how many go on.
 template <std::size_t D>
 HWY_INLINE std::size_t Grower<D>::step_turns(const std::uint32_t* HWY_RESTRICT rows, Turns& turns,
                                              std::size_t count) {
   std::uint32_t* const topology = topology_;
-  std::uint32_t nowhere = 0;
-  std::size_t going_on = 0;
+  std::size_t going_on = 0, ended = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t origin = turns.origin[i], at = turns.to[i];
     const std::uint32_t* ids = topology + std::size_t{at} * 2 * D;
@@ -105,16 +109,21 @@ HWY_INLINE std::size_t Grower<D>::step_turns(const std::uint32_t* HWY_RESTRICT r
     const std::uint32_t back = slot_of<D>(ids + D, turns.from[i]);
     const std::uint32_t next = ids[D + leave], partner = next & ~kNewBit;
     const std::size_t ends = next >> 31;
-    const std::uint32_t row = rows[origin / 16];
-    topology[std::size_t{row} * 2 * D + D + origin % 16] = partner;  // the last of these writes is right
-    std::uint32_t* const targets[2] = {&nowhere, topology + std::size_t{partner} * 2 * D + D + back};
-    *targets[ends] = row;
+    turns.ended[ended] = origin;
+    turns.partner[ended] = partner;
+    turns.back[ended] = back;
+    ended += ends;
     turns.origin[going_on] = origin;
     turns.from[going_on] = at;
     turns.to[going_on] = next;
     turns.pivot[going_on] = ids[back];
     going_on += 1 - ends;
-    fetch_row<D>(topology, partner);  // read in the next step
+    fetch_row<D>(topology, partner);
+  }
+  for (std::size_t i = 0; i < ended; ++i) {
+    const std::uint32_t origin = turns.ended[i], row = rows[origin / 16], partner = turns.partner[i];
+    topology[std::size_t{row} * 2 * D + D + origin % 16] = partner;
+    topology[std::size_t{partner} * 2 * D + D + turns.back[i]] = row;
   }
   return going_on;
 }
