@@ -83,18 +83,21 @@ void warn_of_open_planes(const QhullSelection& selection, const Hull& hull) {
 }
 
 void print_all(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts) {
-  const bool is_summary_all = command.formats.empty() && !command.lists_options && !command.has_statistics;
+  // Where nothing else is asked for, the summary is the result.
+  const bool is_result = command.formats.empty() && !command.has_summary;
   const bool has_summary = command.has_summary || command.has_size || command.reruns > 0;
   OutputFile file(command.output_path);
   for (const std::string& format : command.formats) write_qhull_format(file, format, print);
-  std::string text;
-  if (command.lists_options) text += options_text(print.hull, command, facts);
-  if (has_summary || is_summary_all) text += summary_text(print, command, facts);
-  if (command.has_statistics) text += statistics_text(print.hull);
-  if (is_summary_all || command.diagnostics_to_stdout) {
-    file.write(text);
+  const std::string summary = has_summary || is_result ? summary_text(print, command, facts) : std::string();
+  std::string said;
+  if (command.lists_options) said += options_text(print.hull, command, facts);
+  if (is_result) file.write(summary);
+  if (!is_result) said += summary;
+  if (command.has_statistics) said += statistics_text(print.hull);
+  if (command.diagnostics_to_stdout) {
+    file.write(said);
   } else {
-    std::fputs(text.c_str(), stderr);
+    std::fputs(said.c_str(), stderr);
   }
   file.commit();
 }

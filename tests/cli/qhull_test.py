@@ -338,6 +338,12 @@ def test_summary_options_and_joggle():
     assert done.stdout == ours("Fx", points) and "Total volume:       1\n" in done.stderr
     assert "centrum-radius 0\n" in done.stderr and "insertions" in done.stderr
     assert run("qhull", "s Tz n", stdin=points).stderr == ""
+    for options in ("", "s", "Ts", "FO", "Ts s", "FA", "Tz s", "s n", "Ts n"):  # who says it, and where
+        mine = run("qhull", options, stdin=points)
+        other = subprocess.run([QHULL, *options.split()], input=points, capture_output=True, timeout=PATIENCE,
+                               check=True)  # fmt: skip
+        for text, qhulls in ((mine.stdout, other.stdout), (mine.stderr, other.stderr)):
+            assert ("Number of vertices: 8\n" in text) == (b"Number of vertices: 8\n" in qhulls), options
     assert ours("FQ", points) == "rbox c D3 | qhull FQ\n"
     joggled = run("qhull", "QJ1e-6 TR50 s Fs Tv", stdin=points)
     assert "Input joggled by: 1e-06\n" in joggled.stderr and "precision errors: 0.0\n" in joggled.stderr
