@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "approx/plane_fit.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 

@@ -5,6 +5,8 @@ Layers      core includes nothing of approx, tools; approx nothing of tools; non
 Libraries   CGAL only in core/exact_orientation.cpp, and there only headers under the LGPL; GLM only in
             approx/projection.*; no streams in core and approx: they have no output. (Tests and bench are free.)
 Sources     every .cpp is named in a CMakeLists.txt of its folder or one above; no file has more than 400 lines.
+Headers     a file that uses a type of one of our headers includes it, itself or through what it includes: sources that are
+            compiled as one unit would hide that.
 Words       no identifier `eps`, no `using namespace std`, no note left open without an issue number.
 """
 
@@ -86,6 +88,42 @@ def check_is_built(path):
     yield f"{name}: in no CMakeLists.txt, so it is not built"
 
 
+class Types:
+    """Which header declares a type, and what each file includes, itself or through others."""
+
+    DECLARED = re.compile(r"^(?:class|struct|enum class)\s+(\w+)\b(?![^;{]*;)", re.MULTILINE)
+    FORWARD = re.compile(r"^(?:class|struct|enum class)\s+(\w+)[^;{]*;", re.MULTILINE)
+    INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+
+    def __init__(self, files):
+        self.includes, self.text, self.reach, header_of = {}, {}, {}, {}
+        for path in files:
+            name = path.relative_to(ROOT).as_posix()
+            text = path.read_text(encoding="utf-8")
+            included = self.INCLUDE.findall(text)
+            self.includes[name] = [f"include/{header}" if header.startswith("ndhull/") else header for header in included]
+            self.text[name] = without_comments_and_strings(text)
+            if name.endswith(".h"):
+                for declared in self.DECLARED.findall(self.text[name]):
+                    header_of.setdefault(declared, set()).add(name)
+        self.header_of = {declared: min(names) for declared, names in header_of.items() if len(names) == 1}
+
+    def reached_from(self, name):
+        if name not in self.reach:
+            self.reach[name] = {name}
+            for header in self.includes.get(name, []):
+                self.reach[name] |= self.reached_from(header)
+        return self.reach[name]
+
+    def check(self):
+        for name, text in self.text.items():
+            own = set(self.FORWARD.findall(text)) | set(self.DECLARED.findall(text))
+            for word in sorted(set(re.findall(r"\w+", text)) - own):
+                header = self.header_of.get(word)
+                if header and header not in self.reached_from(name):
+                    yield f"{name}: uses {word} and does not include {header}"
+
+
 def main():
     findings = []
     files = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*") if path.suffix in SUFFIXES)
@@ -93,6 +131,7 @@ def main():
         findings.extend(check_file(path))
         if path.suffix == ".cpp":
             findings.extend(check_is_built(path))
+    findings.extend(Types(path for path in files if path.suffix != ".py").check())
     print("\n".join(findings) if findings else f"check_layers: {len(files)} files, nothing found")
     return 1 if findings else 0
 

@@ -25,6 +25,7 @@ BROKEN = [
     ({"approx/a.h": "#include <glm/vec3.hpp>\n"}, "GLM belongs in"),
     ({"core/a.h": "#include <iostream>\n"}, "no input and output"),
     ({"core/lost.cpp": "\n"}, "core/lost.cpp: in no CMakeLists.txt"),
+    ({"core/a.h": "class Hull {\n};\n", "core/b.h": "Hull hull;\n"}, "core/b.h: uses Hull and does not include core/a.h"),
     ({"core/a.h": "\n" * 401}, "401 lines"),
     ({"core/a.h": "double area_ep" "s = 0;\n"}, "say roundoff"),
     ({"core/a.h": "using  namespace std;\n"}, "no using namespace std"),
@@ -48,6 +49,10 @@ def main():
     code, lines = findings(CLEAN)
     assert code == 0 and len(lines) == 1, lines
     code, lines = findings(CLEAN | {"core/a.h": "// TO" "DO(#12): allowed\n"})
+    assert code == 0, lines
+    reached = {"core/a.h": "class Hull {\n};\n", "core/b.h": '#include "core/a.h"\n',
+               "core/c.h": '#include "core/b.h"\nHull hull;\n', "core/d.h": "class Hull;\nHull* hull;\n"}  # fmt: skip
+    code, lines = findings(CLEAN | reached)
     assert code == 0, lines
     for added, expected in BROKEN:
         code, lines = findings(CLEAN | added)

@@ -10,7 +10,7 @@
 namespace ndhull {
 namespace {
 
-void write_ine(OutputFile& file, std::size_t count, std::size_t dimension, const PlaneSource& planes) {
+void write_ine(OutputFile& file, std::size_t count, std::size_t dimension, const FillPlane& planes) {
   file.print("H-representation\nbegin\n{} {} real\n", count, dimension + 1);
   std::vector<double> row(dimension + 1);
   for (std::size_t index = 0; index < count; ++index) {
@@ -23,7 +23,7 @@ void write_ine(OutputFile& file, std::size_t count, std::size_t dimension, const
   file.write("end\n");
 }
 
-void write_npy(OutputFile& file, std::size_t count, std::size_t dimension, const PlaneSource& planes) {
+void write_npy(OutputFile& file, std::size_t count, std::size_t dimension, const FillPlane& planes) {
   file.write(make_npy_header("<f8", {count, dimension + 1}));
   std::vector<double> row(dimension + 1);
   for (std::size_t index = 0; index < count; ++index) {
@@ -32,7 +32,7 @@ void write_npy(OutputFile& file, std::size_t count, std::size_t dimension, const
   }
 }
 
-void write_qhull_text(OutputFile& file, std::size_t count, std::size_t dimension, const PlaneSource& planes) {
+void write_qhull_text(OutputFile& file, std::size_t count, std::size_t dimension, const FillPlane& planes) {
   file.print("{}\n{}\n", dimension + 1, count);
   std::vector<double> row(dimension + 1);
   for (std::size_t index = 0; index < count; ++index) {
@@ -45,7 +45,7 @@ void write_qhull_text(OutputFile& file, std::size_t count, std::size_t dimension
 }  // namespace
 
 void write_planes(const std::string& path, std::size_t count, std::size_t dimension,
-                  const PlaneSource& planes) {
+                  const FillPlane& planes) {
   OutputFile file(path);
   const std::string extension = extension_of(path);
   if (extension == "ine") {

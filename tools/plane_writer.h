@@ -9,7 +9,7 @@ namespace ndhull {
 
 /// Gives row `index`: fills dimension + 1 numbers, normal and offset with normal.x + offset <= 0 inside.
 /// Called once for each row, in order.
-using PlaneSource = std::function<void(std::size_t index, double* row)>;
+using FillPlane = std::function<void(std::size_t index, double* row)>;
 
 /// Writes `count` planes.
 ///
@@ -21,7 +21,6 @@ using PlaneSource = std::function<void(std::size_t index, double* row)>;
 /// Target    as OutputFile: "-" is standard output (Qhull text).
 /// Throws    Error kFileWrite; whatever `planes` throws. Nothing is left behind then.
 /// Cost      memory for one row.
-void write_planes(const std::string& path, std::size_t count, std::size_t dimension,
-                  const PlaneSource& planes);
+void write_planes(const std::string& path, std::size_t count, std::size_t dimension, const FillPlane& planes);
 
 }  // namespace ndhull

@@ -1,4 +1,6 @@
 // Files of cdd and lrs, and halfspaces in all text formats.
+#include <cmath>
+
 #include "tests/io/io_test_support.h"
 #include "tools/halfspace_reader.h"
 #include "tools/rational.h"
