@@ -12,7 +12,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "approx/halfspace_region.h"
 #include "approx/halfspace_set.h"
@@ -173,6 +175,77 @@ class Intersector {
   HalfspaceIntersection result_;
 };
 
+/// The power of two about which the planes' distances from the origin lie, where it is so far from 1 that
+/// squares and products of lengths are no doubles; 0 where it is not, or where distances differ so much that
+/// offsets would lose digits by scaling.
+int length_exponent(const PointView& rows) {
+  constexpr int kPlain = 300;
+  const std::size_t dimension = rows.dimension - 1;
+  std::optional<int> exponent;
+  for (std::size_t row = 0; row < rows.rows; ++row) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < dimension; ++k) largest = std::max(largest, std::abs(rows.at(row, k)));
+    const double offset = rows.at(row, dimension);
+    if (!(largest > 0.0) || offset == 0.0 || !std::isfinite(largest) || !std::isfinite(offset)) continue;
+    const int here = std::ilogb(offset) - std::ilogb(largest);
+    exponent = std::max(exponent.value_or(here), here);
+  }
+  if (!exponent || std::abs(*exponent) <= kPlain) return 0;
+  for (std::size_t row = 0; row < rows.rows; ++row) {
+    const double offset = rows.at(row, dimension);
+    if (std::ldexp(std::ldexp(offset, -*exponent), *exponent) != offset) return 0;
+  }
+  return *exponent;
+}
+
+/// Multiplies every length of the result by 2^exponent. Volumes that are no doubles then are left out.
+void scale_lengths(HalfspaceIntersection& result, int exponent) {
+  const auto scale = [exponent](double& length) { length = std::ldexp(length, exponent); };
+  std::for_each(result.interior_point.begin(), result.interior_point.end(), scale);
+  std::for_each(result.vertices.begin(), result.vertices.end(), scale);
+  for (std::size_t end = result.dimension; end < result.equations.size(); end += result.dimension + 1)
+    scale(result.equations[end]);
+  scale(result.inner_radius);
+  scale(result.proof_gap);
+  scale(result.max_residual);
+  for (const double coordinate : result.vertices) {
+    if (!std::isfinite(coordinate)) throw too_long_a_region();
+  }
+  const auto scale_measure = [exponent](std::optional<double>& measure, std::size_t dimension) {
+    if (!measure) return;
+    measure = std::ldexp(*measure, exponent * static_cast<int>(dimension));
+    if (*measure == 0.0 || !std::isfinite(*measure)) measure.reset();
+  };
+  if (result.rank == 0) return;
+  scale_measure(result.volume, result.rank);
+  scale_measure(result.area, result.rank - 1);
+}
+
+HalfspaceIntersection intersect(const PointView& halfspaces, const IntersectionOptions& options) {
+  const int exponent = length_exponent(halfspaces);
+  if (exponent == 0) {
+    HalfspaceIntersection result = Intersector(halfspaces, options).run();
+    scale_lengths(result, 0);
+    return result;
+  }
+  IntersectionOptions scaled_options = options;
+  if (options.interior_point && options.interior_point->size() + 1 == halfspaces.dimension) {
+    find_region(HalfspaceSet(halfspaces), options.interior_point);  // throws if it is not inside
+    for (double& coordinate : *scaled_options.interior_point) coordinate = std::ldexp(coordinate, -exponent);
+  }
+  const std::size_t columns = halfspaces.dimension;
+  std::vector<double> rows(halfspaces.rows * columns);
+  for (std::size_t row = 0; row < halfspaces.rows; ++row) {
+    double* const out = rows.data() + row * columns;
+    halfspaces.copy_row(row, out);
+    out[columns - 1] = std::ldexp(out[columns - 1], -exponent);
+  }
+  HalfspaceIntersection result =
+      Intersector(PointView::row_major(rows.data(), halfspaces.rows, columns), scaled_options).run();
+  scale_lengths(result, exponent);
+  return result;
+}
+
 }  // namespace
 
 std::string_view to_string(IntersectionKind kind) {
@@ -189,7 +262,7 @@ HalfspaceIntersection intersect_halfspaces(const PointView& halfspaces, const In
   if (halfspaces.rows == 0) throw Error(ErrorCode::kEmptyInput, "found no halfspaces, expected one or more");
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                              : static_cast<int>(options.threads));
-  return arena.execute([&] { return Intersector(halfspaces, options).run(); });
+  return arena.execute([&] { return intersect(halfspaces, options); });
 }
 
 }  // namespace ndhull

@@ -94,6 +94,35 @@ TEST(IntersectionExample, BoxesOfAllDimensions) {
   }
 }
 
+TEST(IntersectionLaw, RegionsOfAllSizesAreThatOfSizeOneScaled) {
+  for (int d = 1; d <= 5; ++d) {
+    const auto size = static_cast<std::size_t>(d);
+    Rows rows = box(std::vector<double>(size, -1.0), std::vector<double>(size, 1.5));
+    const PointSet normals = family_points(PointFamily::kGaussian, 3 * size, size, size);
+    for (std::size_t row = 0; row < normals.rows(); ++row) {
+      rows.emplace_back(normals.row(row).begin(), normals.row(row).end());
+      rows.back().push_back(-1.0 - 0.1 * static_cast<double>(row));
+    }
+    const HalfspaceIntersection one = intersect(rows);
+    for (const int exponent : {-1000, -980, -830, -660, -500, -310, -200, 200, 310, 500, 830, 980, 1015}) {
+      SCOPED_TRACE("d " + std::to_string(d) + ", 2^" + std::to_string(exponent));
+      Rows scaled = rows;
+      for (auto& row : scaled) row.back() = std::ldexp(row.back(), exponent);
+      HalfspaceIntersection region = intersect(scaled);
+      EXPECT_EQ(region.non_redundant, one.non_redundant);
+      const double volume = std::ldexp(one.volume.value(), exponent * d);
+      if (std::isnormal(volume)) {
+        EXPECT_NEAR(region.volume.value() / volume, 1.0, 1e-12);
+      }
+      EXPECT_TRUE(std::abs(exponent * d) < 1100 || !region.volume.has_value());
+      for (double& coordinate : region.vertices) coordinate = std::ldexp(coordinate, -exponent);
+      for (double& coordinate : region.interior_point) coordinate = std::ldexp(coordinate, -exponent);
+      region.max_residual = std::ldexp(region.max_residual, -exponent);
+      expect_sound(region, rows, 1e-13);
+    }
+  }
+}
+
 TEST(IntersectionExample, RedundantAndRepeatedHalfspacesBoundNothing) {
   Rows rows = box({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
   rows.push_back({1.0, 1.0, 1.0, -4.0});  // outside
@@ -356,18 +385,6 @@ TEST(IntersectionLaw, LimitsGiveVerticesAroundTheIntersection) {
   IntersectionOptions enough;
   enough.limits.max_facets = 1'000'000;
   EXPECT_EQ(intersect_planes(planes, enough).vertex_count(), points.rows());
-}
-
-TEST(IntersectionLaw, ThreadsChangeNothing) {
-  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 3));
-  const PlaneRows planes = exact_planes(hull);
-  IntersectionOptions one, four;
-  one.threads = 1;
-  four.threads = 4;
-  const HalfspaceIntersection a = intersect_planes(planes, one), b = intersect_planes(planes, four);
-  EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.halfspaces_of.values, b.halfspaces_of.values);
-  EXPECT_EQ(a.volume, b.volume);
 }
 
 }  // namespace

@@ -145,5 +145,17 @@ TEST(RoundTrip, OfHardInputOfFullRank) {
   }
 }
 
+TEST(RoundTrip, ThreadsChangeNothing) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 3));
+  const PlaneRows planes = exact_planes(hull);
+  IntersectionOptions one, four;
+  one.threads = 1;
+  four.threads = 4;
+  const HalfspaceIntersection a = intersect_planes(planes, one), b = intersect_planes(planes, four);
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.halfspaces_of.values, b.halfspaces_of.values);
+  EXPECT_EQ(a.volume, b.volume);
+}
+
 }  // namespace
 }  // namespace ndhull
