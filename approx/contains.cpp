@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "approx/halfspace_set.h"
 #include "core/blocks.h"
@@ -78,13 +79,30 @@ class Comparer {
       double product = 0.0;
       for (std::size_t k = 0; k < columns_; ++k) product += row[k] * query[k];
       if (product < least) continue;
-      const CentredPlane exact{
-          .normal = halfspaces_.normal(plane), .reference = {}, .offset = halfspaces_.offset(plane)};
-      const double distance =
-          plane_value(exact, x, DoubtfulSign::kExtendedThenExact) / halfspaces_.length(plane);
+      const double distance = distance_of(x, plane);
       if (distance > found.distance) found = {distance, static_cast<std::uint32_t>(plane)};
     }
     return found;
+  }
+
+  double distance_of(std::span<const double> x, std::size_t plane) const {
+    const std::span<const double> normal = halfspaces_.normal(plane);
+    const double offset = halfspaces_.offset(plane), length = halfspaces_.length(plane);
+    const CentredPlane exact{.normal = normal, .reference = {}, .offset = offset};
+    const double value = plane_value(exact, x, DoubtfulSign::kExtendedThenExact);
+    const double size = std::abs(value);
+    constexpr double kSmallest = 0x1p-900, kLargest = 0x1p+1000;
+    if (size == 0.0 || (size >= kSmallest && size <= kLargest)) return value / length;
+    // The value may be no double where the distance is one: with a normal of length 1/4 to 1/2 it is a part
+    // of the distance. What the scaling rounds is far below the value; its sign is known.
+    const int exponent = -2 - std::ilogb(length);
+    std::vector<double> scaled(normal.begin(), normal.end());
+    for (double& component : scaled) component = std::ldexp(component, exponent);
+    const CentredPlane short_plane{.normal = scaled, .reference = {}, .offset = std::ldexp(offset, exponent)};
+    if (!std::isfinite(short_plane.offset)) return value / length;
+    const double part = plane_value(short_plane, x, DoubtfulSign::kExtendedThenExact);
+    const double distance = std::abs(part) / std::ldexp(length, exponent);
+    return std::copysign(std::max(distance, std::numeric_limits<double>::denorm_min()), value);
   }
 
   const PointView& queries_;

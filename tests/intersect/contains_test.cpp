@@ -59,6 +59,32 @@ TEST(ContainsLaw, SignsOnThePlanesAreExact) {
   EXPECT_EQ(found[4].plane, 0U);
 }
 
+TEST(ContainsLaw, DistancesAreDoublesWhereTheValuesOfTheRowsAreNot) {
+  // Rows 2^k (3, 4, b) and (-6, 8, b): b and the queries are integers, so the distances are rounded once.
+  for (const int row : {-1000, -600, 0, 600, 1000}) {
+    for (const int length : {-500, -100, 0, 100, 500}) {
+      SCOPED_TRACE("row 2^" + std::to_string(row) + ", length 2^" + std::to_string(length));
+      const auto scaled = [&](double a, double b, double c) {
+        const int offset = std::min(row + length, 1000);
+        return std::vector<double>{std::ldexp(a, row), std::ldexp(b, row),
+                                   row + length < -1000 ? 0.0 : std::ldexp(c, offset)};
+      };
+      std::vector<double> planes = scaled(3.0, 4.0, 0.0);
+      const std::vector<double> other = scaled(-6.0, 8.0, 0.0);
+      planes.insert(planes.end(), other.begin(), other.end());
+      const double unit = std::ldexp(1.0, length);
+      const PointSet queries{2, {unit, unit, -7.0 * unit, 2.0 * unit, -unit, -8.0 * unit}, ""};
+      const std::vector<PlaneDistance> found = distances_to_planes(queries.view(), planes);
+      const std::vector<double> expected{1.4 * unit, 5.8 * unit, -5.8 * unit};
+      const std::vector<std::uint32_t> nearest{0, 1, 1};
+      for (std::size_t query = 0; query < expected.size(); ++query) {
+        EXPECT_NEAR(found[query].distance / unit, expected[query] / unit, 1e-14) << query;
+        EXPECT_EQ(found[query].plane, nearest[query]) << query;
+      }
+    }
+  }
+}
+
 TEST(ContainsLaw, InputIsNotOutsideItsOuterPlanesAndWhatIsInsideIsInTheHull) {
   for (const DegenerateCase& hard : degenerate_cases(60, 4, 3)) {
     SCOPED_TRACE(hard.description);
