@@ -97,7 +97,9 @@ IntegerLine read_integer_line(const TextSource& source, const char* place) {
       line.has_text = true;
       const char* word_end = at;
       while (word_end != end && !is_blank(*word_end)) ++word_end;
-      line.text_is_number = is_digit(*at) || *at == '-' || *at == '+' || *at == '.' ||
+      // "33 ,28" is a row of a table, whatever stands behind the comma.
+      const bool separates = *at == ',' || *at == ';';
+      line.text_is_number = separates || is_digit(*at) || *at == '-' || *at == '+' || *at == '.' ||
                             names_non_finite({at, static_cast<std::size_t>(word_end - at)});
       break;
     }
@@ -175,8 +177,10 @@ NumberTable read_qhull_text(const TextSource& source) {
     if (shape.lines++ == 0) shape.first_length = length;
     shape.uniform = shape.uniform && length == shape.first_length;
   }
-  const bool swapped = shape.uniform && shape.lines > 0 && shape.first_length == count &&
-                       count != dimension && shape.lines == dimension;
+  // Only a first number that is the larger one may be the count: points are more than their dimension, and
+  // lines of as many numbers as there are points may be points wrapped.
+  const bool swapped = shape.uniform && shape.lines > 0 && shape.first_length == count && count < dimension &&
+                       shape.lines == dimension;
   if (swapped) std::swap(dimension, count);
   if (table.values.size() != *announced)
     fail_count(source, data, shape, dimension, count, table.values.size());

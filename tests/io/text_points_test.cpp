@@ -36,6 +36,11 @@ TEST(QhullTextExample, FewerPointsThanDimensionsAreNotInterchanged) {
   expect_points("4\n2\n1 2 3\n4 5 6\n7 8\n", 4, {1, 2, 3, 4, 5, 6, 7, 8});
 }
 
+TEST(QhullTextExample, LinesOfSeveralPointsAreNotPoints) {
+  expect_points("2\n4\n1 2 3 4\n5 6 7 8\n", 2, {1, 2, 3, 4, 5, 6, 7, 8});
+  expect_points("2 3\n1 2 3\n4 5 6\n", 2, {1, 2, 3, 4, 5, 6});
+}
+
 TEST(TableExample, EverySeparatorGivesTheSamePoints) {
   const Values values{1, -2.5, 3e4, 0.25, 5, -6};
   for (const char* content :
@@ -61,6 +66,8 @@ TEST(TableExample, ATableOfIntegersIsNotTakenForQhullText) {
   expect_points("2 3\n4 5\n6 7\n", 2, {2, 3, 4, 5, 6, 7});
   expect_points("3 1 2\n4 5 6\n", 3, {3, 1, 2, 4, 5, 6});
   expect_points("3\n2\n1\n", 1, {3, 2, 1}, "points.csv");
+  expect_points("33 ,28\n19 ,86\n", 2, {33, 28, 19, 86});
+  expect_points("33 ;28\n19 ;86.5\n", 2, {33, 28, 19, 86.5});
 }
 
 TEST(TableExample, NumbersAreRoundedCorrectly) {
