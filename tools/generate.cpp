@@ -256,6 +256,18 @@ FillRow make_filler(const GenerateOptions& o, std::size_t rows, PortableRandom& 
   NDHULL_CHECK(false);
 }
 
+void check_finite(const PointView& block, std::size_t first_row) {
+  for (std::size_t row = 0; row < block.rows; ++row) {
+    for (std::size_t k = 0; k < block.dimension; ++k) {
+      if (std::isfinite(block.at(row, k))) continue;
+      throw Error(ErrorCode::kOutOfRange, "generate: found a coordinate of point " +
+                                              std::to_string(first_row + row) +
+                                              " that is too large for its type, expected a finite one; give "
+                                              "a smaller radius, axes or spread");
+    }
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(PointFamily family) {
@@ -308,13 +320,14 @@ void generate(const GenerateOptions& options, const std::function<void(const Poi
   for (std::size_t first = 0; first < rows; first += block_rows) {
     const std::size_t count = std::min(block_rows, rows - first);
     for (std::size_t k = 0; k < count; ++k) fill_row(first + k, {block.data() + k * dimension, dimension});
-    if (rounded.empty()) {
-      take_block(PointView::row_major(block.data(), count, dimension));
-    } else {
+    PointView view = PointView::row_major(block.data(), count, dimension);
+    if (!rounded.empty()) {
       std::transform(block.begin(), block.end(), rounded.begin(),
                      [](double value) { return static_cast<float>(value); });
-      take_block(PointView::row_major(rounded.data(), count, dimension));
+      view = PointView::row_major(rounded.data(), count, dimension);
     }
+    check_finite(view, first);
+    take_block(view);
   }
 }
 

@@ -300,6 +300,27 @@ TEST(GenerateErrors, ParametersOutsideTheirRangeAreRefused) {
   EXPECT_THROW(point_family("shpere"), Error);
 }
 
+TEST(GenerateErrors, CoordinatesThatAreNoNumbersAreRefused) {
+  const auto expect_out_of_range = [](const GenerateOptions& options) {
+    try {
+      generate_points(options);
+      ADD_FAILURE() << to_string(options.family);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kOutOfRange) << error.what();
+    }
+  };
+  GenerateOptions lens = options_for(PointFamily::kLens, 3, 10);
+  lens.lens_radius = 1e300;
+  expect_out_of_range(lens);
+  GenerateOptions clusters = options_for(PointFamily::kClusters, 3, 50);
+  clusters.spread = 1e308;
+  expect_out_of_range(clusters);
+  clusters.spread = 1e39;
+  EXPECT_NO_THROW(generate_points(clusters));
+  clusters.scalar = ScalarType::kFloat32;
+  expect_out_of_range(clusters);
+}
+
 TEST(PortableRandomLaw, LogarithmAndCircleAreAccurate) {
   PortableRandom random(3);
   for (int i = 0; i < 20000; ++i) {
