@@ -33,7 +33,7 @@ struct QhullPrint {
   // What Qhull's own command line may ask for besides (tools/qhull_run.cpp).
   std::vector<AttachedPoint> attached;  ///< points of the facets to print that are no vertices (Qc, Qi)
   std::string invocation;               ///< "rbox ... | qhull ...": what FQ prints, and FD before its planes
-  bool writes_cdd = false;              ///< FD: n, Fo and Fi as cdd reads them
+  bool writes_cdd = false;              ///< FD: n, Fo, Fi and p as cdd reads them
 };
 
 /// Splits the list of `ndhull hull --format`, like "n,Fx o", at commas and blanks.

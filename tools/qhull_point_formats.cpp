@@ -36,12 +36,18 @@ void write_vertex_coordinates(OutputFile& file, const QhullPrint& print) {
   std::vector<PointId> ids = print.vertices;
   for (const AttachedPoint& attached : print.attached) ids.push_back(attached.point);
   std::sort(ids.begin(), ids.end());
-  file.print("{}\n{}\n", dimension, ids.size());
+  if (print.writes_cdd) {
+    file.print("{}\nbegin\n{} {} real\n", print.invocation, ids.size(), dimension + 1);
+  } else {
+    file.print("{}\n{}\n", dimension, ids.size());
+  }
   std::vector<double> row(dimension);
   for (const PointId id : ids) {
     print.points.copy_row(id.value, row.data());
+    if (print.writes_cdd) file.write("1 ");  // a point, where 0 is a ray
     print_row(file, row);
   }
+  if (print.writes_cdd) file.write("end\n");
 }
 
 void write_attached_points(OutputFile& file, const QhullPrint& print) {

@@ -147,6 +147,17 @@ def test_points_and_simplices_have_qhulls_form():
         assert ours("i", stdin).splitlines()[0] == theirs("i", stdin).splitlines()[0], arguments
 
 
+def test_points_as_cdd_reads_them():
+    stdin = points_of("6 c D3 t1")
+    for options in ("FD p", "FD p Qi"):
+        rows = ours(options, stdin).splitlines()
+        if QHULL is not None:
+            assert sorted(rows[1:]) == sorted(theirs(options, stdin).splitlines()[1:])
+        text = "V-representation\n" + "\n".join(rows[1:]) + "\n"
+        points = ours(options.removeprefix("FD "), stdin).splitlines()[2:]
+        assert ours("o", text.encode()).splitlines()[2 : 2 + len(points)] == points
+
+
 def by_facet(text_of_vertices, text, skip):
     keys = [frozenset(row[1:]) for row in rows_of(text_of_vertices, 1)]
     return dict(zip(keys, map(numbers, text.splitlines()[skip:]), strict=True))
