@@ -32,6 +32,26 @@ bool leaves_subspace(const CentredFacets& facets, std::size_t column) {
   return false;
 }
 
+/// Principal components are found by squares of lengths, and sections along them by products of squares.
+void check_extents(const PointView& points) {
+  constexpr double kShortest = 1e-140, kLongest = 1e140;
+  double extent = 0.0;
+  for (std::size_t k = 0; k < points.dimension; ++k) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t row = 0; row < points.rows; ++row) {
+      low = std::min(low, points.at(row, k));
+      high = std::max(high, points.at(row, k));
+    }
+    extent = std::max(extent, high - low);
+  }
+  if (extent > kShortest && extent < kLongest) return;
+  throw Error(
+      ErrorCode::kOutOfRange,
+      fmt::format("points: found an extent of {:.3g}, expected 1e-140 to 1e140 for principal components; "
+                  "multiply the coordinates by a power of two, or choose columns with --axes",
+                  extent));
+}
+
 DrawingAxes axes_of(const ViewedHull& viewed, const ViewWish& wish) {
   const PointView points = viewed.points.view();
   const auto names = column_names_or_numbers(viewed.points.column_names, viewed.dimension());
@@ -41,6 +61,7 @@ DrawingAxes axes_of(const ViewedHull& viewed, const ViewWish& wish) {
                             viewed.points.path, viewed.rank));
   }
   if (wish.columns.empty()) {
+    check_extents(points);
     return principal_axes(points, std::min<std::size_t>(3, viewed.rank), viewed.facets.centre, viewed.extents,
                           names);
   }

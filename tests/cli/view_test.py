@@ -246,8 +246,12 @@ def test_what_cannot_be_drawn_is_one_line_and_no_file():
     (folder / "other.json").write_text("{\"a\": [1, 2]}")
     numpy.save(folder / "line.npy", numpy.outer(numpy.arange(5.0), [1, 2, 3]))
     numpy.save(folder / "plane.npy", numpy.random.default_rng(1).normal(size=(9, 2)) @ [[1, 2, 3, 1], [0, 1, 1, 2]])
+    numpy.save(folder / "far.npy", numpy.load(points) * 1e250)
+    numpy.save(folder / "near.npy", numpy.load(points) * 1e-250)
     first = {**report["facet_list"][0], "outer_offset": -1.0}
     cases = [
+        ([folder / "far.npy", "-o", "out.svg"], "out-of-range", "--axes"),
+        ([folder / "near.npy", "-o", "out.svg", "--unit-cube"], "out-of-range", "--axes"),
         ([points, "-o", "out.png"], "usage", ".svg"),
         ([points, "-o", "out"], "usage", ".svg"),
         ([points], "usage", "output"),
