@@ -19,6 +19,7 @@
 #include "bench/measure_options.h"
 #include "bench/sample.h"
 #include "bench/table.h"
+#include "core/error.h"
 #include "tools/generate.h"
 
 namespace ndhull {
@@ -115,6 +116,9 @@ void run_threads(const ThreadsOptions& options) {
         {one.name, fmt::format("{:.3f}", median(rounds.alone)), fmt::format("{:.3f}", median(rounds.threads)),
          ratio_cell(rounds.alone, rounds.threads, 1.0), fmt::format("{:.3f}", median(rounds.together)),
          ratio_cell(rounds.alone, rounds.together, threads)});
+  }
+  if (table.rows.empty()) {
+    throw Error(ErrorCode::kUsage, fmt::format("no input has \"{}\" in its name", options.only));
   }
   fmt::print("{}\n{}", machine_line(describe_machine()), table.as_text());
 }
