@@ -2,9 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "tools/text_source.h"
 
 namespace ndhull {
+namespace {
+
+CLI::Validator number_that(bool (*fits)(double), std::string_view wanted) {
+  const auto check = [fits, wanted](const std::string& text) -> std::string {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    // What is no finite number is null.
+    if (parse_number(text.data(), end, value) == end && fits(value)) return {};
+    return fmt::format("found \"{}\", expected {}", printable(text), wanted);
+  };
+  return {check, ""};
+}
+
+}  // namespace
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const auto check = [least, most](const std::string& text) -> std::string {
@@ -20,14 +36,11 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
 }
 
 CLI::Validator positive_number() {
-  const auto check = [](const std::string& text) -> std::string {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    // What is no finite number is null.
-    if (parse_number(text.data(), end, value) == end && value > 0.0) return {};
-    return fmt::format("found \"{}\", expected a number above 0", printable(text));
-  };
-  return {check, ""};
+  return number_that([](double value) { return value > 0.0; }, "a number above 0");
+}
+
+CLI::Validator number_from_0() {
+  return number_that([](double value) { return value >= 0.0; }, "a number, 0 or above");
 }
 
 CLI::Validator path_name() {

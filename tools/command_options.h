@@ -11,6 +11,8 @@ namespace ndhull {
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most = UINT64_MAX);
 /// A finite number above 0.
 CLI::Validator positive_number();
+/// A finite number, 0 or above.
+CLI::Validator number_from_0();
 /// A path, which is not the empty word.
 CLI::Validator path_name();
 

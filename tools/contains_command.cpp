@@ -63,10 +63,12 @@ void write_summary(const std::vector<PlaneDistance>& distances, double width) {
     ++counts[static_cast<std::size_t>(membership_of(distances[query].distance, width))];
     if (distances[query].distance > distances[furthest].distance) furthest = query;
   }
-  fmt::print("queries {}: outside {}, within the width {}, inside {}\n", distances.size(), counts[0],
-             counts[1], counts[2]);
-  fmt::print("furthest: query {} plane {} distance {}\n", furthest, distances[furthest].plane,
-             distances[furthest].distance);
+  OutputFile out("-");
+  out.print("queries {}: outside {}, within the width {}, inside {}\n", distances.size(), counts[0],
+            counts[1], counts[2]);
+  out.print("furthest: query {} plane {} distance {}\n", furthest, distances[furthest].plane,
+            distances[furthest].distance);
+  out.commit();
 }
 
 void run_contains(const ContainsArguments& arguments) {
@@ -120,7 +122,7 @@ void add_contains_command(CLI::App& app) {
           "of the hull's widest facet (max_facet_width in its report): less far below an outer plane "
           "the answer is \"within-width\"; default 0")
       ->type_name("W")
-      ->check(positive_number());
+      ->check(number_from_0());
   command->add_flag("--summary", arguments->summary, "print counts and the furthest query only")
       ->excludes(output);
   command

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "approx/report.h"
@@ -16,6 +17,7 @@
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
 #include "tools/largest_command.h"
+#include "tools/output_file.h"
 #include "tools/point_set_commands.h"
 #include "tools/qhull_command.h"
 #include "tools/verify_command.h"
@@ -56,6 +58,17 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app) {
   return fmt::format("found \"{}\", expected an option or argument of this command", left.front());
 }
 
+/// Runs the command that the words name. What --help and --version print is a result like any other.
+void parse(CLI::App& app, std::vector<std::string> words) {
+  std::ostringstream text;
+  try {
+    app.parse(std::move(words));
+  } catch (const CLI::Success& asked) {
+    app.exit(asked, text, text);
+    write_text("-", text.str());
+  }
+}
+
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments) {
@@ -81,9 +94,7 @@ int run_program(const std::vector<std::string>& arguments) {
     check_command(app, arguments);
     std::vector<std::string> words = join_verify_mode(arguments);
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
-    app.parse(std::move(words));
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    parse(app, std::move(words));
   } catch (const CLI::ParseError& error) {
     return fail(kBadInputExitCode, "usage", fmt::format("{}; see {}", describe(error, app), help_of(app)));
   } catch (const Error& error) {

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "core/error.h"
+#include "tools/command_options.h"
 #include "tools/halfspace_reader.h"
+#include "tools/output_file.h"
 #include "tools/point_reader.h"
 
 namespace ndhull {
@@ -43,16 +45,25 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command =
       app.add_subcommand("verify", "Is every point below every plane? Exit code 2 if not.");
-  command->add_option("POINTS", arguments->points, "points: a file, or - for standard input")->required();
-  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or -")->required();
-  command->add_option("--threads", arguments->threads,
-                      "0: all cores; the result is the same for every number");
+  command->add_option("POINTS", arguments->points, "points: a file, or - for standard input")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or -")
+      ->type_name("")
+      ->check(path_name())
+      ->required();
+  command
+      ->add_option("--threads", arguments->threads,
+                   "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
   command->footer(
       "Numbers are taken as the doubles they are read to; a point on a plane is not above it.\n"
       "Example: ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy");
   command->callback([arguments, &exit_code] {
     const PlaneCheck check = verify_files(arguments->points, arguments->planes, arguments->threads);
-    fmt::print("{}", describe(check));
+    write_text("-", describe(check));
     exit_code = check.above == 0 ? 0 : 2;
   });
 }

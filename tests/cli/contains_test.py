@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """ndhull contains: lines and .npy agree with NumPy, answers with the width, refusals."""
 
+import subprocess
+
 import numpy
 
-from program import fresh_folder, one_error_line, rbox, run, run_tests
+from program import PROGRAM, fresh_folder, one_error_line, rbox, run, run_tests
 
 FOLDER = fresh_folder("contains")
 POINTS = rbox("300 s D4 t1", FOLDER / "points.npy")
@@ -37,11 +39,29 @@ def test_npy_and_width():
     assert (answers[:, 2] == wanted).all() and len(set(wanted)) == 3
 
 
+def test_a_width_of_0_is_no_width():
+    # max_facet_width of a report may be 0.
+    words = ("contains", FOLDER / "planes.npy", FOLDER / "queries.npy")
+    assert run(*words, "--width", "0").stdout == run(*words).stdout
+
+
 def test_summary():
     text = run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--summary").stdout
     distances, _ = expected()
     assert text.startswith(f"queries 2000: outside {sum(distances > 0)}, within the width 0, inside ")
     assert f"furthest: query {distances.argmax()} plane" in text
+
+
+def test_a_summary_that_cannot_be_written_is_an_error():
+    with open("/dev/full", "w", encoding="utf8") as full:
+        for words in (
+            ("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--summary"),
+            ("verify", FOLDER / "points.npy", FOLDER / "planes.npy"),
+            ("contains", "--help"),
+            ("--version",),
+        ):
+            done = subprocess.run([PROGRAM, *map(str, words)], stdout=full, stderr=subprocess.PIPE, check=False)
+            assert done.returncode == 1 and done.stderr.startswith(b"ndhull: file-write: "), (words, done)
 
 
 def test_the_input_is_not_outside():
@@ -54,6 +74,8 @@ def test_refusals():
     rbox("10 D3", FOLDER / "low.npy")
     one_error_line(run("contains", FOLDER / "planes.npy", FOLDER / "low.npy", exit_code=1), "usage")
     one_error_line(run("contains", "-", "-", exit_code=1), "usage")
+    one_error_line(run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--width", "-1", exit_code=1), "usage")
+    one_error_line(run("verify", FOLDER / "points.npy", FOLDER / "planes.npy", "--threads", "99999999", exit_code=1), "usage")
     one_error_line(run("contains", FOLDER / "planes.npy", FOLDER / "none.npy", exit_code=1), "file-missing")
 
 
