@@ -36,6 +36,13 @@ struct LocalPlanes {
   std::vector<double> lengths;  // of the halfspace's unit normal in these coordinates
 };
 
+Error too_parallel_planes() {
+  return Error(ErrorCode::kBadHalfspace,
+               "found planes that are parallel but for rounding, so that doubles do not tell what they "
+               "enclose, expected equal ones or others; remove copies, scale the coordinates to similar "
+               "extents, or name an interior point");
+}
+
 class RegionFinder {
  public:
   explicit RegionFinder(const HalfspaceSet& halfspaces) : halfspaces_(halfspaces) {
@@ -167,11 +174,7 @@ class RegionFinder {
   void settle() {
     // No plane holds the ball: the way out that was found leads through planes, to rounding.
     if (tight_.empty()) throw too_long_a_region();
-    if (objective_ > roundoff_) {  // a ball, but no point of which it is the ball
-      throw Error(ErrorCode::kBadHalfspace,
-                  "found planes that are parallel but for rounding, so that doubles do not tell what they "
-                  "enclose, expected equal ones or others; remove copies, or name an interior point");
-    }
+    if (objective_ > roundoff_) throw too_parallel_planes();  // a ball, but no point of which it is the ball
     if (objective_ < -roundoff_) {
       prove_empty(tight_);
     } else {
@@ -256,6 +259,12 @@ class RegionFinder {
     }
     std::sort(region_.proof.begin(), region_.proof.end(),
               [](const auto& a, const auto& b) { return a.halfspace < b.halfspace; });
+    // Where the region is 10^12 times as long as thick, normals count as parallel that are not: what was
+    // found about some point then proves nothing.
+    double gap = 0.0;
+    for (const WeightedHalfspace& term : region_.proof)
+      gap += term.weight * halfspaces_.offset(term.halfspace);
+    if (!(gap > 0.0)) throw too_parallel_planes();
   }
 
   /// The planes with positive weights contain the region: on to what they have in common.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/portable_random.h"
 #include "tests/intersect/intersect_support.h"
 #include "tests/support/degeneracies.h"
@@ -155,6 +156,37 @@ TEST(RoundTrip, ThreadsChangeNothing) {
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.halfspaces_of.values, b.halfspaces_of.values);
   EXPECT_EQ(a.volume, b.volume);
+}
+
+TEST(IntersectionLaw, WhatContainsTheOriginIsNotCalledEmpty) {
+  // Duals of points whose columns differ in size by up to 10^60: every plane is below the origin.
+  PortableRandom random(3);
+  for (int round = 0; round < 300; ++round) {
+    const std::size_t d = 2 + static_cast<std::size_t>(round % 2);
+    std::vector<double> sizes(d), rows;
+    for (double& size : sizes) size = std::pow(10.0, std::floor(10.0 * random.normal()));
+    const auto add_row = [&](const std::vector<double>& point) {
+      for (std::size_t k = 0; k < d; ++k) rows.push_back(point[k] * sizes[k]);
+      rows.push_back(-1.0);
+    };
+    for (std::size_t k = 0; k < 2 * d; ++k) {
+      std::vector<double> axis(d, 0.0);
+      axis[k / 2] = k % 2 == 0 ? 1.0 : -1.0;
+      add_row(axis);
+    }
+    for (std::size_t k = 0; k < d; ++k) {
+      std::vector<double> point(d);
+      for (double& value : point) value = random.normal();
+      add_row(point);
+    }
+    try {
+      const HalfspaceIntersection region =
+          intersect_halfspaces(PointView::row_major(rows.data(), 3 * d, d + 1));
+      EXPECT_NE(region.kind, IntersectionKind::kEmpty) << round;
+    } catch (const Error& error) {  // doubles do not tell
+      EXPECT_EQ(error.code(), ErrorCode::kBadHalfspace) << error.what();
+    }
+  }
 }
 
 }  // namespace
