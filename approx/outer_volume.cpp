@@ -151,7 +151,7 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   if (polytope.status != HullStatus::kComplete) return too_many;
   if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
   spend_time();
-  const PolytopeMeasure measure = measure_polytope(planes, polytope, options);
+  const PolytopeMeasure measure = measure_polytope(planes, polytope, options, false);
   if (measure.status != HullStatus::kComplete)
     return {std::nullopt, measure.status == HullStatus::kTimeLimit ? kOutOfTime : "interrupted"};
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.

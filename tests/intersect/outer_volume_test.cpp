@@ -59,6 +59,33 @@ TEST(OuterVolumeLaw, HoldsOnHardInput) {
   }
 }
 
+// A point and another 1e-8 beside it, d times: a plate of that thickness, whose planes are moved by 1e-7 of
+// it at most. Measured with vertices as they are, faces of the plate were up to a half too large or too
+// small.
+TEST(OuterVolumeLaw, OfThinPlatesIsTheirVolume) {
+  for (std::size_t d = 3; d <= 4; ++d) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      SCOPED_TRACE("d " + std::to_string(d) + ", seed " + std::to_string(seed));
+      PointSet plate = family_points(PointFamily::kGaussian, 2 * d, d, seed);
+      for (std::size_t k = 0; k < d * d; ++k)
+        plate.coordinates[d * d + k] = plate.coordinates[k] + 1e-8 * plate.coordinates[d * d + k];
+      const Hull hull = hull_of(plate);
+      EXPECT_NEAR(outer_volume(hull, all_facets(hull), kMany).volume.value(), hull.volume,
+                  1e-5 * hull.volume);
+    }
+  }
+}
+
+TEST(OuterVolumeExample, AreasOfThinPolytopesAreMeasuredToo) {
+  // A box of 1 x 2 x 1e-9, turned.
+  const std::vector<double> sides{0.5, 1.0, 0.5e-9};
+  const Hull hull = hull_of(rotated(axis_scaled(cube(3).points, sides), 5));
+  const PlanesAboutOrigin planes = outer_planes_about_interior(hull, {});
+  const PolytopeMeasure measure = measure_polytope(planes, intersect_about_origin(planes, {}));
+  EXPECT_NEAR(measure.volume, 2e-9, 2e-9 * 1e-5);
+  EXPECT_NEAR(measure.area, 2.0 * (2.0 + 3e-9), 1e-8);
+}
+
 TEST(OuterVolumeExample, OfSomeSidesOfARotatedCube) {
   // Without the two sides of an axis the prism is open; with one plane across it is bounded again.
   const Hull hull = hull_of(rotated(cube(4).points, 3));
