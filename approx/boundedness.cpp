@@ -47,9 +47,10 @@ LpResult solve(ColumnTable& table, const VectorXd& right_side) {
   return solve_lp(lp, [&table](const LpQuery& query) { return table.price(query); });
 }
 
-/// A direction of the even normals that they leave open.
+/// A direction of the even normals, or of some of them, that they leave open.
 std::optional<VectorXd> open_among(const RowMatrix& rows) {
   const Index rank = rows.cols();
+  if (rows.rows() == 0) return VectorXd(VectorXd::Unit(rank, 0));
   ColumnTable table = table_of(rows, 1.0);
   // -(1, .., 1) and the unit vectors span the space positively.
   for (Index k = 0; k <= rank; ++k) {
@@ -64,10 +65,11 @@ std::optional<VectorXd> open_among(const RowMatrix& rows) {
   return std::nullopt;
 }
 
-std::optional<VectorXd> open_direction(const RowMatrix& rows) {
+/// Of the first `count` rows; all of them say what is even.
+std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
   const EvenNormals even = spread_evenly(rows);
   if (even.orthogonal) return even.orthogonal;
-  std::optional<VectorXd> direction = open_among(even.rows);
+  std::optional<VectorXd> direction = open_among(even.rows.topRows(count));
   if (direction) direction = (even.map * *direction).normalized();
   return direction;
 }
@@ -87,7 +89,7 @@ class Completion {
   bool is_bounded(const std::vector<std::uint32_t>& added) const {
     std::vector<std::uint32_t> ids = selected_;
     ids.insert(ids.end(), added.begin(), added.end());
-    return !open_direction(rows_of(rows_, ids));
+    return !open_among(rows_of(rows_, ids));
   }
 
   /// What the selected normals sum up to, weighted, has to be balanced: that takes at most rank normals, and
@@ -109,7 +111,7 @@ class Completion {
       }
       std::vector<std::uint32_t> ids = selected_;
       ids.insert(ids.end(), added.begin(), added.end());
-      const std::optional<VectorXd> open = open_direction(rows_of(rows_, ids));
+      const std::optional<VectorXd> open = open_among(rows_of(rows_, ids));
       if (!open) return thinned(added);
       if (progress) continue;
       Index furthest = 0;
@@ -159,11 +161,17 @@ class Completion {
 }  // namespace
 
 Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,
-                                std::span<const double> equations) {
+                                std::span<const double> equations, std::span<const double> others) {
   const MatrixXd directions = subspace_directions(dimension, equations);
   if (directions.cols() == 0) return {true, {}, 0.0};  // a point
   const RowMatrix rows = unit_rows(normals, dimension, directions);
-  const std::optional<VectorXd> open = open_direction(rows);
+  RowMatrix all = rows;
+  if (!others.empty()) {
+    const RowMatrix further = unit_rows(others, dimension, directions);
+    all.conservativeResize(rows.rows() + further.rows(), Eigen::NoChange);
+    all.bottomRows(further.rows()) = further;
+  }
+  const std::optional<VectorXd> open = open_direction(all, rows.rows());
   if (!open) return {true, {}, 0.0};
   const VectorXd direction = directions * *open;
   return {false, std::vector<double>(direction.data(), direction.data() + direction.size()),

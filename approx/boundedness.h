@@ -25,10 +25,13 @@ struct Boundedness {
 /// Method  The normals are mapped linearly so that they spread evenly (the answer does not change); then
 ///         each of rank + 1 directions that span the space positively must be a combination of normals with
 ///         weights >= 0. One linear program each; the dual of one that fails is the direction.
+/// Others  normals of further planes of the same body: the map spreads these and `normals` evenly. Without
+///         them the map of a few planes of a merged cube makes their rounding as long as the rest: they would
+///         bound a region 1e13 times the cube.
 /// Limit   Normals that after the map reach less than 1e-10 far in some direction count as open.
 /// Cost    rank + 1 linear programs with rank rows and a column for each normal.
 Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,
-                                std::span<const double> equations = {});
+                                std::span<const double> equations = {}, std::span<const double> others = {});
 
 /// Rows of `normals`, apart from those selected, that bound a region together with these; few: found by
 /// linear programs that use as little as they can of new normals, several times, then thinned until none

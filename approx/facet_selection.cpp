@@ -67,6 +67,15 @@ std::vector<double> normals_of(const Hull& hull, const std::vector<std::uint32_t
   return normals;
 }
 
+/// Enough to know by their normals what is thin.
+std::vector<std::uint32_t> some_facets(const Hull& hull) {
+  constexpr std::size_t kMost = 4096;
+  const std::size_t step = hull.facet_count() / kMost + 1;
+  std::vector<std::uint32_t> ids;
+  for (std::size_t id = 0; id < hull.facet_count(); id += step) ids.push_back(static_cast<std::uint32_t>(id));
+  return ids;
+}
+
 }  // namespace
 
 FacetSelection select_facets(const Hull& hull, const SelectionOptions& options) {
@@ -75,15 +84,19 @@ FacetSelection select_facets(const Hull& hull, const SelectionOptions& options) 
   std::iota(all.begin(), all.end(), 0U);
   std::copy_if(all.begin(), all.end(), std::back_inserter(ids),
                [&](std::uint32_t id) { return is_kept[id]; });
+  const std::vector<double> shape = normals_of(hull, some_facets(hull));
+  const auto region_of = [&](const std::vector<std::uint32_t>& chosen) {
+    return find_open_direction(normals_of(hull, chosen), hull.dimension, hull.subspace_equations, shape);
+  };
   FacetSelection selection;
-  Boundedness region = find_open_direction(normals_of(hull, ids), hull.dimension, hull.subspace_equations);
+  Boundedness region = region_of(ids);
   if (options.bounded && !region.bounded) {
     const std::vector<std::uint32_t> added =
         complete_to_bounded(normals_of(hull, all), hull.dimension, ids, hull.subspace_equations);
     selection.added = added.size();
     ids.insert(ids.end(), added.begin(), added.end());
     std::sort(ids.begin(), ids.end());
-    region = find_open_direction(normals_of(hull, ids), hull.dimension, hull.subspace_equations);
+    region = region_of(ids);
   }
   selection.bounded = region.bounded;
   selection.open_direction = std::move(region.direction);

@@ -185,6 +185,18 @@ TEST(BoundednessOracle, CompletionsAreSeldomLargerThanTheSmallest) {
   EXPECT_LE(10 * extra, cases);
 }
 
+// Merging leaves the sides of a cube parallel up to 1e-12. Four of them bound a region by that, 1e12 times
+// the cube.
+TEST(BoundednessExample, RoundingOfACubesSidesBoundsNothing) {
+  const std::vector<double> sides{1.0,    5e-13, -6e-13, -1.0,  2e-13,  4e-13, 6e-13,  1.0,   6e-13,
+                                  -6e-13, -1.0,  1e-12,  2e-13, -4e-13, 1.0,   -3e-13, 1e-13, -1.0};
+  const std::vector<std::uint32_t> four{0, 1, 2, 3}, expected{4, 5};
+  EXPECT_EQ(complete_to_bounded(sides, 3, four), expected);
+  EXPECT_FALSE(find_open_direction(rows_of(sides, 3, four), 3, {}, sides).bounded);
+  EXPECT_TRUE(find_open_direction(sides, 3, {}, sides).bounded);
+  EXPECT_FALSE(find_open_direction({}, 3, {}, sides).bounded);
+}
+
 TEST(BoundednessExample, CubesAreCompletedWithTheSidesThatAreMissing) {
   std::vector<double> normals;
   for (std::size_t k = 0; k < 10; ++k) {
