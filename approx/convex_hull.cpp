@@ -180,10 +180,14 @@ class HullBuilder {
   /// Fewer facets than the exact ones, if fewer were asked for.
   void choose_for_volume(std::span<const double> determinants) {
     check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
+    constexpr double kShare = 0.6;  // of the limit; simplices and the facet table come after it
+    const WorkEnd end(kShare * options_.limits.max_seconds, options_.stop, start_);
     std::optional<VolumeCover> few =
         cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
-                         gradient_factor(frame_, hull_.length_unit_));
+                         gradient_factor(frame_, hull_.length_unit_), end);
     if (!few) return;
+    if (few->is_cut_short && hull_.status == HullStatus::kComplete)
+      hull_.status = end.is_late() ? HullStatus::kTimeLimit : HullStatus::kInterrupted;
     is_bounded_ = few->is_bounded;
     clusters_ = std::move(few->clusters);
     hull_.is_approximate = true;

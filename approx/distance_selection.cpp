@@ -35,7 +35,7 @@ struct Spike {
 
 class DistanceChoice {
  public:
-  DistanceChoice(const Hull& hull, std::size_t count) : count_(count) {
+  DistanceChoice(const Hull& hull, std::size_t count, const WorkEnd& end) : count_(count), end_(end) {
     facets_.resize(hull.facet_count());
     for (std::uint32_t row = 0; row < hull.facet_count(); ++row) facets_[row] = FacetId{row};
     std::sort(facets_.begin(), facets_.end(), [&hull](FacetId a, FacetId b) {
@@ -55,6 +55,7 @@ class DistanceChoice {
     Ids chosen = complete_to_bounded(planes_.normals, planes_.rank, {});
     add_planes(chosen);
     if (chosen.size() <= kMostExchanged) exchange(chosen);
+    if (end_.is_here()) return sorted_facets(chosen);
     const Ids largest = first(count_);
     const auto of_largest = furthest(largest), of_chosen = furthest(chosen);
     if (of_largest && of_chosen && of_largest->height < of_chosen->height) chosen = largest;
@@ -90,7 +91,10 @@ class DistanceChoice {
     std::vector<Spike> spikes;
     HullOptions options;
     options.limits.max_facets = kMostSimplices;
+    options.limits.max_seconds = end_.seconds_left();
+    options.stop = end_.stop();
     options.threads = 1;
+    options.wants_partial = false;
     const PlanePolytope polytope = intersect_about_origin(some, options);
     if (!polytope.bounded || polytope.status != HullStatus::kComplete) return spikes;
     const auto rank = static_cast<Index>(planes_.rank);
@@ -101,6 +105,7 @@ class DistanceChoice {
                                                static_cast<Index>(polytope.vertex_count(planes_.rank)), rank);
     Eigen::MatrixXd above;
     for (Index begin = 0; begin < vertices.rows(); begin += kBlock) {
+      if (end_.is_here()) return {};
       const Index used = std::min(kBlock, vertices.rows() - begin);
       above.noalias() = normals * vertices.middleRows(begin, used).transpose();
       above.colwise() -= heights;
@@ -136,7 +141,7 @@ class DistanceChoice {
         if (added < missing && add(spike.plane)) ++added;
       }
       if (added > 0) continue;
-      // Too many vertices to look at, or the hull is reached: the largest of the others.
+      // Too many vertices to look at, the hull is reached, or there is no time: the largest of the others.
       for (std::uint32_t id = 0; chosen.size() < count_; ++id) add(id);
     }
   }
@@ -146,7 +151,7 @@ class DistanceChoice {
     std::optional<Spike> now = furthest(chosen);
     for (int round = 0; round < kExchangeRounds && now; ++round) {
       bool has_changed = false;
-      for (std::size_t place = 0; place < chosen.size(); ++place) {
+      for (std::size_t place = 0; place < chosen.size() && !end_.is_here(); ++place) {
         Ids others = chosen;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
         const std::optional<Spike> open = furthest(others);
@@ -163,20 +168,21 @@ class DistanceChoice {
   }
 
   std::size_t count_;
+  const WorkEnd& end_;
   std::vector<FacetId> facets_;  // candidates, largest first
   PlanesAboutOrigin planes_;     // their outer planes
 };
 
 }  // namespace
 
-std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count) {
+std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count, const WorkEnd& end) {
   if (hull.rank == 0) return {};
   if (count <= hull.rank) {
     throw Error(ErrorCode::kUsage, "selection for distance: found " + std::to_string(count) +
                                        " facets wanted, expected at least " + std::to_string(hull.rank + 1) +
                                        ": fewer planes bound no region");
   }
-  return DistanceChoice(hull, count).choose();
+  return DistanceChoice(hull, count, end).choose();
 }
 
 }  // namespace ndhull

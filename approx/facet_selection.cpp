@@ -23,7 +23,7 @@ void keep_first(std::uint64_t count, std::vector<std::uint32_t>& ids, std::vecto
 }
 
 /// One flag a facet. The options look at all facets each: their results are intersected.
-std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options) {
+std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
   const auto simplices = [&hull](std::uint32_t id) { return hull.simplex_count_of(FacetId{id}); };
   // Areas beyond the range of doubles are the largest: a number that is none must not spoil the order.
   const auto area = [&hull](std::uint32_t id) {
@@ -44,8 +44,8 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options)
   if (options.largest && options.measure != SelectionMeasure::kArea) {
     is_kept.assign(is_kept.size(), false);
     const std::vector<FacetId> chosen = options.measure == SelectionMeasure::kVolume
-                                            ? choose_for_volume(hull, *options.largest)
-                                            : choose_for_distance(hull, *options.largest);
+                                            ? choose_for_volume(hull, *options.largest, end)
+                                            : choose_for_distance(hull, *options.largest, end);
     for (const FacetId facet : chosen) is_kept[facet.value] = true;
   } else if (options.largest) {
     keep_first(*options.largest, ids, is_kept, is_larger);
@@ -78,8 +78,9 @@ std::vector<std::uint32_t> some_facets(const Hull& hull) {
 
 }  // namespace
 
-FacetSelection select_facets(const Hull& hull, const SelectionOptions& options) {
-  const std::vector<bool> is_kept = kept_facets(hull, options);
+FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
+  const std::vector<bool> is_kept = kept_facets(hull, options, end);
+  const bool is_chosen = options.largest && options.measure != SelectionMeasure::kArea;
   std::vector<std::uint32_t> all(hull.facet_count()), ids;
   std::iota(all.begin(), all.end(), 0U);
   std::copy_if(all.begin(), all.end(), std::back_inserter(ids),
@@ -89,6 +90,7 @@ FacetSelection select_facets(const Hull& hull, const SelectionOptions& options) 
     return find_open_direction(normals_of(hull, chosen), hull.dimension, hull.subspace_equations, shape);
   };
   FacetSelection selection;
+  selection.is_cut_short = is_chosen && end.is_here();
   Boundedness region = region_of(ids);
   if (options.bounded && !region.bounded) {
     const std::vector<std::uint32_t> added =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "approx/hull.h"
+#include "approx/work_end.h"
 
 namespace ndhull {
 
@@ -32,6 +33,7 @@ struct SelectionOptions {
 struct FacetSelection {
   std::vector<FacetId> facets;  ///< ascending, the added ones among them
   std::size_t added = 0;        ///< of these: facets that only close the region
+  bool is_cut_short = false;    ///< `end` came before the choice for volume or distance was made
   bool bounded = false;  ///< do the outer planes of `facets` bound a region (of a flat hull: within it)?
   std::vector<double> open_direction;  ///< not bounded: a unit vector along which none of the planes is met
 };
@@ -41,9 +43,11 @@ struct FacetSelection {
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/boundedness.h), each of which is needed. Facets of a
 ///           hull always can bound a region. A hull without facets is a point, and bounded.
+/// End       of choosing for volume or distance, which can take minutes: facets still missing then are the
+///           largest. All else takes little.
 /// Throws    Error kUsage as choose_for_volume and choose_for_distance do.
 /// Cost      O(facets) and a sort of those kept; a few linear programs over the planes selected, with
 ///           `bounded` over all planes when the selection is open.
-FacetSelection select_facets(const Hull& hull, const SelectionOptions& options);
+FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end = {});
 
 }  // namespace ndhull

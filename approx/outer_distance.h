@@ -10,6 +10,7 @@
 
 #include "approx/hull.h"
 #include "approx/plane_polytope.h"
+#include "approx/work_end.h"
 #include "core/points.h"
 
 namespace ndhull {
@@ -46,11 +47,11 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
 ///          when they do better. Heights stand for distances: they are equal where the nearest point is
 ///          inside a facet, and below them elsewhere.
 /// Result   ascending. More than `count` where so few bound nothing. Polytopes of more than 200,000 simplices
-///          are not looked at: the largest facets make up the number then.
+///          are not looked at: the largest facets make up the number then, and when `end` has come.
 /// Throws   Error kUsage when count <= rank: so few planes bound nothing.
 /// Cost     a hull of the chosen dual points for each round, and for each exchange two; candidates (the
 /// 20,000
 ///          of largest area) x vertices x rank multiplications.
-std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count);
+std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count, const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -132,6 +132,7 @@ Json selected_of(const FacetSelection& selection, const OuterDistance* outer) {
   const bool is_known = outer != nullptr && outer->distance.has_value();
   return {{"facets", selection.facets.size()},
           {"added", selection.added},
+          {"cut_short", selection.is_cut_short},
           {"bounded", selection.bounded},
           {"open_direction", selection.bounded ? Json(nullptr) : Json(selection.open_direction)},
           {"outer_distance", is_known ? Json(*outer->distance) : Json(nullptr)}};

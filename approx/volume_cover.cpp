@@ -75,7 +75,7 @@ std::span<const double> values_of(const RowMatrix& rows) {
 }
 
 /// Chosen rows of facets.planes.
-RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count) {
+RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count, const WorkEnd& end) {
   const RowMatrix even = evenly_spread(facets.planes);
   std::vector<std::uint32_t> ids = candidates_of(facets, even);
   if (ids.size() > kMostCandidates) {
@@ -86,7 +86,7 @@ RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count) {
   const RowMatrix candidates = rows_of(even, ids);
   const std::vector<std::uint32_t> start =
       complete_to_bounded(values_of(candidates), static_cast<std::size_t>(even.cols()), {});
-  std::vector<std::uint32_t> chosen = choose_by_rays(candidates, start, count);
+  std::vector<std::uint32_t> chosen = choose_by_rays(candidates, start, count, end);
   for (std::uint32_t& row : chosen) row = ids[row];
   std::sort(chosen.begin(), chosen.end());
   return rows_of(facets.planes, chosen);
@@ -126,12 +126,14 @@ std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, co
 
 std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, const double* points,
                                             std::span<const double> determinants, const FacetClusters& exact,
-                                            std::uint64_t count, std::span<const double> gradient_factor) {
+                                            std::uint64_t count, std::span<const double> gradient_factor,
+                                            const WorkEnd& end) {
   const ExactFacets facets = list_facets(complex, determinants, exact);
   if (facets.volumes.size() <= count) return std::nullopt;
-  const RowMatrix planes = choose_planes(facets, count);
+  const RowMatrix planes = choose_planes(facets, count, end);
+  const bool is_cut_short = end.is_here();
   if (static_cast<std::uint64_t>(planes.rows()) > count)
-    return VolumeCover{.is_bounded = false, .clusters = {}};
+    return VolumeCover{.is_bounded = false, .is_cut_short = is_cut_short, .clusters = {}};
   FacetClusters clusters;
   clusters.cluster_of = assign_simplices(complex, points, planes, gradient_factor);
   // A plane that rounding makes the same as another may get no simplex: the other stands for both.
@@ -145,7 +147,7 @@ std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, co
     }
     cluster = found;
   }
-  return VolumeCover{.is_bounded = true, .clusters = std::move(clusters)};
+  return VolumeCover{.is_bounded = true, .is_cut_short = is_cut_short, .clusters = std::move(clusters)};
 }
 
 }  // namespace ndhull

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "approx/facet_layout.h"
+#include "approx/work_end.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -14,6 +15,7 @@ namespace ndhull {
 struct VolumeCover {
   bool is_bounded =
       true;  ///< false: no `count` planes were found that bound a region, and there are no clusters
+  bool is_cut_short = false;  ///< `end` came before the choice was made
   FacetClusters clusters;
 };
 
@@ -29,6 +31,7 @@ struct VolumeCover {
 /// Cost     as choose_by_rays; count x simplices x rank comparisons.
 std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, const double* points,
                                             std::span<const double> determinants, const FacetClusters& exact,
-                                            std::uint64_t count, std::span<const double> gradient_factor);
+                                            std::uint64_t count, std::span<const double> gradient_factor,
+                                            const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -26,8 +26,9 @@ constexpr Index kRayBlock = 256;
 /// For each ray the chosen plane that it meets first, and the second one.
 class RayChoice {
  public:
-  RayChoice(const RowMatrix& planes, std::size_t ray_count)
+  RayChoice(const RowMatrix& planes, std::size_t ray_count, const WorkEnd& end)
       : planes_(planes),
+        end_(end),
         directions_(planes.cols(), static_cast<Index>(ray_count)),
         first_(ray_count, 0.0),
         second_(ray_count, 0.0),
@@ -50,9 +51,13 @@ class RayChoice {
     for (std::size_t ray = 0; ray < first_.size(); ++ray) all.push_back({ray, HUGE_VAL});
     update_gains(all);
   }
-  /// The plane not chosen that gains most, lower row at ties.
+  /// The plane not chosen that gains most, lower row at ties; at the end the first that is not chosen.
   std::uint32_t best() const {
     std::uint32_t best = kNone;
+    if (end_.is_here()) {
+      const auto first = std::find(is_chosen_.begin(), is_chosen_.end(), false);
+      return static_cast<std::uint32_t>(first - is_chosen_.begin());
+    }
     for (std::uint32_t plane = 0; plane < gains_.size(); ++plane) {
       if (!is_chosen_[plane] && (best == kNone || gains_[plane] > gains_[best])) best = plane;
     }
@@ -114,7 +119,8 @@ class RayChoice {
 
   void update_gains(const std::vector<RayChange>& changes) {
     Eigen::MatrixXd directions, products;
-    for (std::size_t begin = 0; begin < changes.size(); begin += kRayBlock) {
+    // What is not up to date at the end is not looked at any more.
+    for (std::size_t begin = 0; begin < changes.size() && !end_.is_here(); begin += kRayBlock) {
       const auto used = static_cast<Index>(std::min<std::size_t>(kRayBlock, changes.size() - begin));
       directions.resize(planes_.cols(), used);
       for (Index k = 0; k < used; ++k)
@@ -152,6 +158,7 @@ class RayChoice {
   }
 
   const RowMatrix& planes_;
+  const WorkEnd& end_;
   Eigen::MatrixXd directions_;  // rank x rays
   Eigen::RowVectorXd slope_;    // of one plane along each ray
   std::vector<double> first_, second_;
@@ -164,7 +171,8 @@ class RayChoice {
 /// Takes out the planes that are needed least, one after the other, each for the one that then gains most;
 /// until a round over all of them changes nothing. `fixed` planes stay: they bound the rays between the
 /// others.
-void exchange(RayChoice& choice, const std::vector<std::uint32_t>& fixed, std::size_t trials) {
+void exchange(RayChoice& choice, const std::vector<std::uint32_t>& fixed, std::size_t trials,
+              const WorkEnd& end) {
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     const std::vector<double> needs = choice.needs();
@@ -174,10 +182,11 @@ void exchange(RayChoice& choice, const std::vector<std::uint32_t>& fixed, std::s
     });
     for (const std::uint32_t plane : order) {
       if (std::find(fixed.begin(), fixed.end(), plane) != fixed.end()) continue;
-      if (trials-- == 0) return;
+      if (trials-- == 0 || end.is_here()) return;
       choice.remove(plane);
       const std::uint32_t best = choice.best();
-      const bool is_better = choice.known_gain(best) > choice.known_gain(plane) * (1.0 + kLeastGain);
+      const bool is_better =
+          !end.is_here() && choice.known_gain(best) > choice.known_gain(plane) * (1.0 + kLeastGain);
       choice.add(is_better ? best : plane);
       has_changed = has_changed || is_better;
     }
@@ -194,13 +203,13 @@ RowMatrix evenly_spread(RowMatrix planes) {
 }
 
 std::vector<std::uint32_t> choose_by_rays(const RowMatrix& planes, const std::vector<std::uint32_t>& start,
-                                          std::size_t count) {
+                                          std::size_t count, const WorkEnd& end) {
   const auto plane_count = static_cast<std::size_t>(planes.rows());
-  RayChoice choice(planes, std::clamp(kRaysForPlane * count, kFewestRays, kMostRays));
+  RayChoice choice(planes, std::clamp(kRaysForPlane * count, kFewestRays, kMostRays), end);
   for (const std::uint32_t plane : start) choice.add(plane);
   choice.look_at_all();
   while (choice.chosen().size() < std::min(count, plane_count)) choice.add(choice.best());
-  if (choice.chosen().size() < plane_count) exchange(choice, start, kTrials * count);
+  if (choice.chosen().size() < plane_count) exchange(choice, start, kTrials * count, end);
   std::vector<std::uint32_t> chosen = choice.chosen();
   std::sort(chosen.begin(), chosen.end());
   return chosen;

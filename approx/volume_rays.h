@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "approx/work_end.h"
 #include "core/dense_views.h"
 
 namespace ndhull {
@@ -22,9 +23,10 @@ RowMatrix evenly_spread(RowMatrix planes);
 ///          shortens them most. What each plane would gain is kept up to date ray by ray.
 /// Shapes   start: rows that bound a region; they stay. Coordinates in which the rows are spread evenly: rays
 ///          are uniform.
-/// Result   ascending; the same on every machine and for any threads.
+/// Result   ascending; the same on every machine and for any threads. When `end` comes first what is missing
+///          are the first planes not chosen.
 /// Cost     planes x rays (60 for each plane wanted, 4,000 to 60,000) x rank multiplications a few times.
 std::vector<std::uint32_t> choose_by_rays(const RowMatrix& planes, const std::vector<std::uint32_t>& start,
-                                          std::size_t count);
+                                          std::size_t count, const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -95,7 +95,8 @@ class EvenPoints {
 
 class VolumeChoice {
  public:
-  VolumeChoice(const Hull& hull, std::size_t count) : hull_(hull), count_(count) {
+  VolumeChoice(const Hull& hull, std::size_t count, const WorkEnd& end)
+      : hull_(hull), count_(count), end_(end) {
     Ids ids(hull.facet_count());
     std::iota(ids.begin(), ids.end(), 0U);
     std::sort(ids.begin(), ids.end(), [&hull](std::uint32_t a, std::uint32_t b) {
@@ -117,8 +118,8 @@ class VolumeChoice {
     if (facets_.size() <= count_) return facets_of(all_candidates());
     const std::span<const double> normals(planes_.data(), static_cast<std::size_t>(planes_.size()));
     const Ids start = complete_to_bounded(normals, hull_.rank, {});
-    std::vector<Ids> choices{choose_by_rays(planes_, start, count_)};
-    if (count_ <= kMostExchanged) {
+    std::vector<Ids> choices{choose_by_rays(planes_, start, count_, end_)};
+    if (count_ <= kMostExchanged && !end_.is_here()) {
       choices.push_back(add_planes(start));
       choices.push_back(exchanged(choices.back()));
     }
@@ -128,8 +129,10 @@ class VolumeChoice {
     std::optional<double> least;
     std::vector<FacetId> best = facets_of(choices.front());
     for (const Ids& choice : choices) {
+      if (end_.is_here()) break;
       const std::vector<FacetId> facets = facets_of(choice);
-      const OuterVolume outer = outer_volume(hull_, facets, kMostVertices, 1);
+      const OuterVolume outer =
+          outer_volume(hull_, facets, kMostVertices, 1, end_.stop(), end_.seconds_left());
       if (!outer.volume || (least && *least <= *outer.volume)) continue;
       least = outer.volume;
       best = facets;
@@ -192,6 +195,10 @@ class VolumeChoice {
     while (chosen.size() < count_) {
       Gain best = gains.top();
       gains.pop();
+      if (end_.is_here()) {
+        chosen.push_back(best.row);
+        continue;
+      }
       if (best.counted_at < chosen.size()) {
         const Index above = points_above(even.points(), planes_.row(best.row));
         gains.push(
@@ -207,7 +214,7 @@ class VolumeChoice {
 
   /// Takes each plane out in turn, and puts in the one that then cuts most off: it may be the same.
   Ids exchanged(Ids chosen) {
-    for (std::size_t place = 0; place < chosen.size(); ++place) {
+    for (std::size_t place = 0; place < chosen.size() && !end_.is_here(); ++place) {
       Ids others = chosen;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
       const RowMatrix planes = rows_of(planes_, others);
@@ -230,20 +237,21 @@ class VolumeChoice {
 
   const Hull& hull_;
   std::size_t count_;
+  const WorkEnd& end_;
   Ids facets_;        // candidates: facets by area, largest first
   RowMatrix planes_;  // one a candidate
 };
 
 }  // namespace
 
-std::vector<FacetId> choose_for_volume(const Hull& hull, std::size_t count) {
+std::vector<FacetId> choose_for_volume(const Hull& hull, std::size_t count, const WorkEnd& end) {
   if (hull.rank == 0) return {};
   if (count <= hull.rank) {
     throw Error(ErrorCode::kUsage, "selection for volume: found " + std::to_string(count) +
                                        " facets wanted, expected at least " + std::to_string(hull.rank + 1) +
                                        ": fewer planes bound no region");
   }
-  return VolumeChoice(hull, count).choose();
+  return VolumeChoice(hull, count, end).choose();
 }
 
 }  // namespace ndhull

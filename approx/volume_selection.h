@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "approx/hull.h"
+#include "approx/work_end.h"
 
 namespace ndhull {
 
@@ -19,11 +20,11 @@ namespace ndhull {
 ///          volumes are computed, where that takes few vertices, of these choices and of the `count` largest
 ///          facets if they bound a region: the least is taken.
 /// Result   ascending. More than `count` where so few bound nothing: a box needs all its sides.
-/// Deterministic,
-///          whatever the threads.
+///          Deterministic, whatever the threads, unless `end` comes first: then planes that are missing are
+///          those of the largest facets.
 /// Throws   Error kUsage when count <= rank: so few planes bound nothing.
 /// Cost     planes looked at (the 20,000 of largest area) times rays, 4,000 to 60,000, a few times; up to 100
 ///          planes as well times 2,000 to 20,000 points once, and 1,000 points for each exchange: seconds.
-std::vector<FacetId> choose_for_volume(const Hull& hull, std::size_t count);
+std::vector<FacetId> choose_for_volume(const Hull& hull, std::size_t count, const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -219,7 +219,9 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   if (request.selection.is_set()) {
     progress.show_phase("select");
     const Clock::time_point select_start = Clock::now();
-    selection = select_facets(hull, request.selection);
+    selection =
+        select_facets(hull, request.selection,
+                      WorkEnd(seconds_for_measure(request.options.limits, start), context.options.stop));
     context.select_seconds = seconds_since(select_start);
     context.selection = &*selection;
     progress.clear();

@@ -16,6 +16,7 @@ namespace {
 std::string describe_selection(const FacetSelection& selection, const OuterDistance* outer) {
   std::string text = fmt::format("selected  {} facets", grouped(selection.facets.size()));
   if (selection.added > 0) text += fmt::format(", {} of them to bound a region", grouped(selection.added));
+  if (selection.is_cut_short) text += ", the choice cut short by a limit";
   if (!selection.bounded) return text + "; not bounded\n";
   if (outer == nullptr || !outer->distance) return text + "; bounded\n";
   return text + fmt::format("; bounded, nowhere further than {:.6g} from the hull\n", *outer->distance);

@@ -4,7 +4,7 @@
 import json
 
 import numpy
-from program import DIAMONDS, fresh_folder, one_error_line, rbox, report_of, run, run_tests
+from program import DIAMONDS, PATIENCE, fresh_folder, one_error_line, rbox, report_of, run, run_tests
 
 
 def all_facets(path, *options):
@@ -91,6 +91,24 @@ def test_the_limit_on_seconds_is_for_the_outer_volume_too():
         assert report["outer_volume"] is None and report["status"] == "complete", target
         assert "limit on seconds" in report["outer_volume_reason"], report["outer_volume_reason"]
         assert report["volume"] > 0
+
+
+def test_the_limit_on_seconds_is_for_the_choice_too():
+    folder = fresh_folder("choice_limit")
+    points = folder / "points.npy"
+    rbox("2000 s D5 t1", points)
+    limit = PATIENCE / 150
+    for target in (["--largest", 100, "--select", "volume"], ["--largest", 200, "--select", "distance"]):
+        report = report_of(points, *target, "--max-seconds", limit, "--threads", 1)
+        selected = report["selected"]
+        assert report["status"] == "complete" and selected["cut_short"] is True, target
+        assert selected["facets"] == target[1] and selected["bounded"] is True
+        assert report["seconds"]["total"] < 3 * limit, report["seconds"]
+    report = report_of(points, "--facets", 100, "--objective", "volume", "--max-seconds", limit, "--threads", 1)
+    assert report["status"] == "time_limit" and report["facets"] <= 100 and report["points_outside"] == 0
+    assert report["seconds"]["total"] < 3 * limit, report["seconds"]
+    report = report_of(points, "--largest", 100)
+    assert report["selected"]["cut_short"] is False
 
 
 def test_the_outer_volume_is_that_of_the_intersection():
