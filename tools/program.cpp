@@ -1,6 +1,7 @@
 #include "tools/program.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "approx/report.h"
 #include "core/error.h"
+#include "tools/command_options.h"
 #include "tools/contains_command.h"
 #include "tools/exit_code.h"
 #include "tools/extreme_command.h"
@@ -72,6 +74,8 @@ void parse(CLI::App& app, std::vector<std::string> words) {
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments) {
+  // Of more threads than cores TBB would start but as many as there are cores, and say so on standard error.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
   int exit_code = 0;
   CLI::App app{"Convex hulls in five and more dimensions, with a proven error bound on every facet.",
                "ndhull"};

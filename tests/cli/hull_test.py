@@ -297,6 +297,13 @@ def test_threads_do_not_change_the_bytes():
     assert files[0] == files[1] == files[2]
 
 
+def test_more_threads_than_cores_are_nothing_to_be_warned_of():
+    for command in (["hull", "--quiet"], ["extreme", "--quiet"], ["largest", "-n", "5", "--quiet"]):
+        done = run(*command, DIAMONDS, "--threads", 1024 if command[0] == "hull" else 100)
+        assert done.stderr == "", done.stderr
+    assert report_of(DIAMONDS, "--threads", 100)["options"]["threads"] == 100
+
+
 def test_vertices_as_array_and_text():
     folder = fresh_folder("vertices")
     run("hull", DIAMONDS, "--vertices", folder / "v.npy")
