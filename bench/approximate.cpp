@@ -20,6 +20,7 @@
 #include "bench/run_record.h"
 #include "core/error.h"
 #include "tools/byte_count.h"
+#include "tools/point_extent.h"
 
 namespace ndhull {
 namespace {

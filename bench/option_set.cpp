@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string_view>
 
@@ -100,24 +99,6 @@ std::vector<OptionSet> parse_option_sets(const std::string& text) {
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');) sets.push_back(parse_option_set(part));
   return sets;
-}
-
-double largest_extent(const PointView& points) {
-  std::vector<double> row(points.dimension);
-  std::vector<double> low(points.dimension, std::numeric_limits<double>::infinity());
-  std::vector<double> high(points.dimension, -std::numeric_limits<double>::infinity());
-  for (std::size_t index = 0; index < points.rows; ++index) {
-    points.copy_row(index, row.data());
-    for (std::size_t column = 0; column < points.dimension; ++column) {
-      low[column] = std::min(low[column], row[column]);
-      high[column] = std::max(high[column], row[column]);
-    }
-  }
-  double extent = 0.0;
-  for (std::size_t column = 0; column < points.dimension; ++column) {
-    extent = std::max(extent, high[column] - low[column]);
-  }
-  return extent;
 }
 
 }  // namespace ndhull

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "approx/accuracy.h"
-#include "core/points.h"
 
 namespace ndhull {
 
@@ -26,8 +25,5 @@ OptionSet parse_option_set(const std::string& text);
 
 /// Several, parted by commas.
 std::vector<OptionSet> parse_option_sets(const std::string& text);
-
-/// [distance] The largest extent of a column.
-double largest_extent(const PointView& points);
 
 }  // namespace ndhull

@@ -13,6 +13,7 @@
 #include "bench/table.h"
 #include "core/error.h"
 #include "tools/generate.h"
+#include "tools/point_extent.h"
 #include "tools/point_reader.h"
 
 namespace ndhull {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "tools/output_file.h"
+#include "tools/point_extent.h"
 #include "tools/view_scale.h"
 
 namespace ndhull {
@@ -16,20 +17,6 @@ namespace {
 
 constexpr double kFirstShare = 0.01, kLastShare = 0.64;  // of the largest extent
 constexpr double kStep = 1.4142135623730951;
-
-double largest_extent(const PointView& points, bool unit_cube) {
-  if (unit_cube) return 1.0;
-  double largest = 0.0;
-  for (std::size_t column = 0; column < points.dimension; ++column) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::size_t row = 0; row < points.rows; ++row) {
-      low = std::min(low, points.at(row, column));
-      high = std::max(high, points.at(row, column));
-    }
-    largest = std::max(largest, high - low);
-  }
-  return largest;
-}
 
 /// A logarithmic axis over the pixels from .. to.
 class LogAxis {
@@ -133,7 +120,7 @@ void write_picture(const std::string& path, const std::vector<TradePoint>& curve
 std::vector<TradePoint> trade_curve(const PointView& points, const HullOptions& options, const Hull& first,
                                     double seconds) {
   std::vector<TradePoint> curve{{first.facet_count(), first.max_facet_width, seconds}};
-  const double extent = largest_extent(points, options.unit_cube);
+  const double extent = options.unit_cube ? 1.0 : largest_extent(points);
   double width = std::max(kStep * first.max_facet_width, kFirstShare * extent);
   for (; width <= kLastShare * extent && curve.back().facets > first.rank + 1; width *= kStep) {
     HullOptions coarser = options;

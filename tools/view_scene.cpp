@@ -9,6 +9,7 @@
 
 #include "approx/shadow.h"
 #include "core/error.h"
+#include "tools/point_extent.h"
 
 namespace ndhull {
 namespace {
@@ -35,15 +36,7 @@ bool leaves_subspace(const CentredFacets& facets, std::size_t column) {
 /// Principal components are found by squares of lengths, and sections along them by products of squares.
 void check_extents(const PointView& points) {
   constexpr double kShortest = 1e-140, kLongest = 1e140;
-  double extent = 0.0;
-  for (std::size_t k = 0; k < points.dimension; ++k) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::size_t row = 0; row < points.rows; ++row) {
-      low = std::min(low, points.at(row, k));
-      high = std::max(high, points.at(row, k));
-    }
-    extent = std::max(extent, high - low);
-  }
+  const double extent = largest_extent(points);
   if (extent > kShortest && extent < kLongest) return;
   throw Error(
       ErrorCode::kOutOfRange,
