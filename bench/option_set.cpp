@@ -3,7 +3,6 @@
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string_view>
