@@ -67,11 +67,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(raise_in_vectors);
 
 void raise_extremes(const float* columns, std::size_t rank, std::span<const std::uint32_t> ids,
                     const float* directions, std::span<DirectionExtreme> extremes) {
-  HWY_DYNAMIC_DISPATCH(raise_in_vectors)(columns, rank, ids, directions, extremes);
+  NDHULL_BEST_OF(raise_in_vectors)(columns, rank, ids, directions, extremes);
 }
 }  // namespace ndhull
 #endif

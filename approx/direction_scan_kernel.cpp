@@ -102,11 +102,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(scan_tiles_in_vectors);
 
 void scan_tiles(const ScanTiles& tiles, std::size_t begin, std::size_t end, const float* directions,
                 DirectionState* states, std::size_t count, std::vector<NearPoint>& near) {
-  HWY_DYNAMIC_DISPATCH(scan_tiles_in_vectors)(tiles, begin, end, directions, states, count, near);
+  NDHULL_BEST_OF(scan_tiles_in_vectors)(tiles, begin, end, directions, states, count, near);
 }
 }  // namespace ndhull
 #endif

@@ -70,10 +70,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(find_above_in_vectors);
 
 void find_above(const ScanPlanes& planes, const double* block, std::vector<ScanHit>& hits) {
-  HWY_DYNAMIC_DISPATCH(find_above_in_vectors)(planes, block, hits);
+  NDHULL_BEST_OF(find_above_in_vectors)(planes, block, hits);
 }
 }  // namespace ndhull
 #endif

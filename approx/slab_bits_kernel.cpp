@@ -41,11 +41,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(intersect_rows_any);
 
 void intersect_rows(const std::uint64_t* bits, std::size_t words, const std::uint16_t* ids, std::size_t size,
                     std::size_t count, std::uint64_t* out) {
-  HWY_DYNAMIC_DISPATCH(intersect_rows_any)(bits, words, ids, size, count, out);
+  NDHULL_BEST_OF(intersect_rows_any)(bits, words, ids, size, count, out);
 }
 
 }  // namespace ndhull

@@ -348,7 +348,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(find_furthest_in_bytes);
 
 std::size_t find_furthest(const BytePoints& points, std::span<const double> normals,
                           std::span<FurthestPoint> furthest) {
@@ -356,7 +355,7 @@ std::size_t find_furthest(const BytePoints& points, std::span<const double> norm
   std::vector<std::size_t> tried((furthest.size() + kDirectionsAtATime - 1) / kDirectionsAtATime);
   for_each_block(furthest.size(), kDirectionsAtATime, [&](std::size_t begin, std::size_t end) {
     ByteSearchMemory memory;
-    HWY_DYNAMIC_DISPATCH(find_furthest_in_bytes)
+    NDHULL_BEST_OF(find_furthest_in_bytes)
     (points, normals.subspan(begin * points.dimension(), (end - begin) * points.dimension()),
      furthest.subspan(begin, end - begin), memory);
     tried[begin / kDirectionsAtATime] = memory.tried;

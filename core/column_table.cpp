@@ -62,7 +62,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(search_blocks);
 
 ColumnTable::ColumnTable(std::size_t height, std::size_t count)
     : height_(height),
@@ -85,7 +84,7 @@ ColumnTable::Best ColumnTable::largest_product(std::span<const double> multiplie
   NDHULL_CHECK(count_ > 0 && multipliers.size() == height_ + 1);
   Best best{0, -HUGE_VAL};
   const std::size_t blocks = values_.size() / (kBlock * (height_ + 1));
-  HWY_DYNAMIC_DISPATCH(search_blocks)
+  NDHULL_BEST_OF(search_blocks)
   (values_.data(), blocks, kBlock, height_ + 1, multipliers.data(), best.product, best.column);
   return best;
 }

@@ -144,8 +144,6 @@ std::size_t whole_vectors(std::size_t count) {
 
 }  // namespace
 
-HWY_EXPORT(turn_any);
-
 void TurningPoints::assign(std::size_t dimension, const double* rows, std::span<const std::uint32_t> facet,
                            std::span<const std::uint32_t> others) {
   dimension_ = dimension;
@@ -164,8 +162,8 @@ void TurningPoints::assign(std::size_t dimension, const double* rows, std::span<
 
 double TurningPoints::turn(unsigned steps, double* direction) {
   places_.assign(steps + 1, kNoPlace);
-  const double width = HWY_DYNAMIC_DISPATCH(turn_any)(dimension_, columns_.data(), stride_, facet_stride_,
-                                                      steps, direction, places_.data());
+  const double width = NDHULL_BEST_OF(turn_any)(dimension_, columns_.data(), stride_, facet_stride_, steps,
+                                                direction, places_.data());
   tops_.clear();
   for (const std::uint32_t place : places_) {
     if (place == kNoPlace) break;

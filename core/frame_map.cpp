@@ -50,7 +50,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(map_full);
 
 namespace {
 
@@ -81,7 +80,7 @@ void map_diagonal(const Scalar* data, const PointView& points, const Frame& fram
 
 void map_points(const PointView& points, const Frame& frame, double* out) {
   if (!frame.is_diagonal) {
-    HWY_DYNAMIC_DISPATCH(map_full)(points, frame, out);
+    NDHULL_BEST_OF(map_full)(points, frame, out);
     return;
   }
   if (points.type == ScalarType::kFloat64) {

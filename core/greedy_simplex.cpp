@@ -70,8 +70,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(find_largest);
-HWY_EXPORT(reduce_rows);
 
 namespace {
 
@@ -101,10 +99,10 @@ class Residuals {
   /// Returns the longest row after reduce_rows, of equal ones the first.
   std::size_t reduce(std::span<const double> origin, std::span<const double> direction) {
     for_each_block(count_, kRowsInBlock, [&](std::size_t begin, std::size_t end) {
-      HWY_DYNAMIC_DISPATCH(reduce_rows)
+      NDHULL_BEST_OF(reduce_rows)
       (columns_.data(), count_, begin, end, origin, direction, length_sq_.data());
     });
-    return HWY_DYNAMIC_DISPATCH(find_largest)(length_sq_);
+    return NDHULL_BEST_OF(find_largest)(length_sq_);
   }
 
   double length(std::size_t row) const { return std::sqrt(length_sq_[row]); }

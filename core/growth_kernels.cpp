@@ -36,10 +36,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(run_growth);
 
 GrowthStop grow(GrowthWork& work) {
-  const GrowthStop stop = HWY_DYNAMIC_DISPATCH(run_growth)(work);
+  const GrowthStop stop = NDHULL_BEST_OF(run_growth)(work);
   if (stop == GrowthStop::kNoOutsidePoints) forget_outside(work);
   return stop;
 }

@@ -248,7 +248,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(highest_dots_any);
 
 namespace {
 
@@ -361,7 +360,7 @@ void PointGroups::find_centre(std::size_t group) {
 
 void highest_dots(const PointGroups& points, std::span<const double> normals, const OwnDots& own,
                   std::span<double> largest) {
-  HWY_DYNAMIC_DISPATCH(highest_dots_any)(points, normals, own, largest);
+  NDHULL_BEST_OF(highest_dots_any)(points, normals, own, largest);
 }
 
 }  // namespace ndhull

@@ -104,12 +104,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(search_ridges);
 
 std::uint64_t find_ridges(std::span<const std::uint64_t* const> rows, std::size_t words, std::size_t least,
                           std::vector<FacetPair>& pairs) {
   pairs.clear();
-  return HWY_DYNAMIC_DISPATCH(search_ridges)(rows, words, least, pairs);
+  return NDHULL_BEST_OF(search_ridges)(rows, words, least, pairs);
 }
 
 }  // namespace ndhull

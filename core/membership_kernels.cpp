@@ -192,11 +192,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(locate_any);
 
 void locate_in_cones(const SimplicialComplex& complex, const double* points, const HullBall& ball,
                      const double* query_points, bool proves_outside, std::span<LocatedPoint> located) {
-  HWY_DYNAMIC_DISPATCH(locate_any)(complex, points, ball, query_points, proves_outside, located);
+  NDHULL_BEST_OF(locate_any)(complex, points, ball, query_points, proves_outside, located);
 }
 
 }  // namespace ndhull

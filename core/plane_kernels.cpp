@@ -277,30 +277,26 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(max_dots_any);
-HWY_EXPORT(own_dots_any);
-HWY_EXPORT(mark_flat_any);
-HWY_EXPORT(solve_simplices_any);
 
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot) {
-  HWY_DYNAMIC_DISPATCH(max_dots_any)(dimension, normals, points, max_dot);
+  NDHULL_BEST_OF(max_dots_any)(dimension, normals, points, max_dot);
 }
 
 void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
               std::span<const double> normals, std::span<const double> points,
               std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high) {
-  HWY_DYNAMIC_DISPATCH(own_dots_any)(complex, first, dimension, normals, points, row_of_point, low, high);
+  NDHULL_BEST_OF(own_dots_any)(complex, first, dimension, normals, points, row_of_point, low, high);
 }
 
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
                std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
-  HWY_DYNAMIC_DISPATCH(mark_flat_any)(complex, points, tolerance, looks_at, is_flat);
+  NDHULL_BEST_OF(mark_flat_any)(complex, points, tolerance, looks_at, is_flat);
 }
 
 void solve_simplices(SimplicialComplex& complex, const double* points,
                      std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
-  HWY_DYNAMIC_DISPATCH(solve_simplices_any)(complex, points, is_shifted, determinants);
+  NDHULL_BEST_OF(solve_simplices_any)(complex, points, is_shifted, determinants);
 }
 
 }  // namespace ndhull

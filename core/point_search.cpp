@@ -305,14 +305,12 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(find_furthest_any);
-HWY_EXPORT(find_above_any);
 
 void find_furthest(const PointTree& tree, std::span<const double> normals,
                    std::span<FurthestPoint> furthest) {
   constexpr std::size_t kDirectionsAtATime = 64;
   for_each_block(furthest.size(), kDirectionsAtATime, [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(find_furthest_any)
+    NDHULL_BEST_OF(find_furthest_any)
     (tree, normals.subspan(begin * tree.dimension(), (end - begin) * tree.dimension()),
      furthest.subspan(begin, end - begin));
   });
@@ -320,7 +318,7 @@ void find_furthest(const PointTree& tree, std::span<const double> normals,
 
 void find_above(const PointTree& tree, std::span<const double> normal, double least,
                 std::vector<FurthestPoint>& found) {
-  HWY_DYNAMIC_DISPATCH(find_above_any)(tree, normal.data(), least, found);
+  NDHULL_BEST_OF(find_above_any)(tree, normal.data(), least, found);
 }
 
 }  // namespace ndhull

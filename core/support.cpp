@@ -77,8 +77,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-HWY_EXPORT(fill_dots_any);
-HWY_EXPORT(find_rows_above);
 
 SupportTable::SupportTable(std::size_t dimension, std::span<const double> rows)
     : dimension_(dimension), count_(rows.size() / dimension), rows_(rows.data()) {
@@ -102,10 +100,10 @@ std::uint32_t SupportTable::find(const double* direction, SupportProducts& produ
   for (std::size_t k = 0; k < dimension_; ++k) entries[k] = static_cast<float>(direction[k]);
   const std::size_t block_count = blocks_.size() / (dimension_ * kSupportBlock);
   dots.resize(block_count * kSupportBlock);
-  const float largest = HWY_DYNAMIC_DISPATCH(fill_dots_any)(dimension_, entries.data(), blocks_.data(),
-                                                            block_count, dots.data());
+  const float largest =
+      NDHULL_BEST_OF(fill_dots_any)(dimension_, entries.data(), blocks_.data(), block_count, dots.data());
   candidates.clear();
-  HWY_DYNAMIC_DISPATCH(find_rows_above)(dots.data(), count_, largest - 2.0f * rounding_, candidates);
+  NDHULL_BEST_OF(find_rows_above)(dots.data(), count_, largest - 2.0f * rounding_, candidates);
   std::uint32_t furthest = 0;
   height = -HUGE_VAL;
   for (const std::uint32_t row : candidates) {
@@ -121,7 +119,7 @@ std::uint32_t SupportTable::find(const double* direction, SupportProducts& produ
 void SupportTable::rows_above(const SupportProducts& products, double low,
                               std::vector<std::uint32_t>& rows) const {
   const auto least = static_cast<float>(low * scale_) - rounding_;
-  HWY_DYNAMIC_DISPATCH(find_rows_above)(products.dots.data(), count_, least, rows);
+  NDHULL_BEST_OF(find_rows_above)(products.dots.data(), count_, least, rows);
 }
 
 }  // namespace ndhull
