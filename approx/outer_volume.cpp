@@ -23,7 +23,7 @@ using Eigen::Index;
 constexpr double kSecondsPerSimplex = 1.5e-6;
 constexpr double kSecondsPerFace = 3e-8;
 constexpr double kSecondsPerCreated = 1e-7;
-constexpr double kAffordableSeconds = 0.02;
+constexpr double kAffordableSeconds = 0.01;
 constexpr double kAffordableShare = 0.2;
 
 constexpr const char* kOutOfTime = "it would take longer than the limit on seconds";

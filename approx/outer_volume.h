@@ -36,7 +36,7 @@ struct OuterVolume {
 OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
                          unsigned threads = 0, const std::stop_token& stop = {}, double max_seconds = 0.0);
 
-/// A max_simplices with which the volume costs at most about 0.02 s or a fifth of the hull's growth,
+/// A max_simplices with which the volume costs at most about 0.01 s or a fifth of the hull's growth,
 /// whichever is more, and no more memory than limits.max_memory_bytes. The same for the same hull on every
 /// machine.
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits = {});
