@@ -349,8 +349,8 @@ std::optional<std::vector<std::uint32_t>> rows_worth_a_copy(const PointShards& s
 Hull hull_of_reduced(const ReducedPoints& reduced, std::size_t rows, HullOptions options,
                      Clock::time_point start) {
   const double seconds = seconds_since(start);
-  std::uint64_t& most_bytes = options.limits.max_memory_bytes;
-  if (most_bytes > reduced.bytes()) most_bytes -= reduced.bytes();
+  for (std::uint64_t* most : {&options.limits.max_memory_bytes, &options.limits.machine_memory_bytes})
+    if (*most > reduced.bytes()) *most -= reduced.bytes();
   const PointView view = reduced.view();
   Hull hull = HullBuilder(view, options, start).run();
   hull.statistics.dropped_points = rows - view.rows;

@@ -33,6 +33,10 @@ struct Limits {
   std::uint64_t max_facets = 0;        ///< simplices of the growth complex
   double max_seconds = 0.0;            ///< wall clock of the whole call: growth ends in time for the rest
   std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
+  /// What the machine has for them: ends growth where max_memory_bytes is 0, and changes nothing before.
+  std::uint64_t machine_memory_bytes = 0;
+
+  std::uint64_t most_memory() const { return max_memory_bytes > 0 ? max_memory_bytes : machine_memory_bytes; }
 };
 
 /// The phases of one run, in order; the report, the progress line and the benchmarks use these names.

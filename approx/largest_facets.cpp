@@ -104,7 +104,7 @@ bool try_hull(const PointView& points, const LargestOptions& options, Clock::tim
   hull_options.stop = options.stop;
   hull_options.limits.max_facets = options.max_facets;
   if (!must && options.max_facets == 0) hull_options.limits.max_facets = kAutoFacets;
-  if (!must) hull_options.limits.max_memory_bytes = kAutoMemory;
+  hull_options.limits.max_memory_bytes = must ? options.machine_memory_bytes : kAutoMemory;
   if (options.max_seconds > 0.0) {
     const double left = std::max(options.max_seconds - seconds_since(start), 1e-3);
     hull_options.limits.max_seconds = must ? left : kHullShareOfTime * left;

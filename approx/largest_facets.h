@@ -32,11 +32,12 @@ struct LargestOptions {
   std::uint64_t rays = 0;        ///< shoot exactly so many; 0: until the largest are stable
   double max_seconds = 0.0;      ///< wall clock; 0: none
   std::uint64_t max_facets = 0;  ///< simplices of the whole hull; 0: 2.5 million for kAuto, else none
-  bool bounded = false;          ///< add further facets until the outer planes bound a region
-  double confidence = 0.95;      ///< of intervals and bounds
-  std::uint64_t seed = 1;        ///< of rays
-  unsigned threads = 0;          ///< 0: all cores. The result does not depend on it.
-  std::stop_token stop = {};     ///< ends the search with what was found
+  std::uint64_t machine_memory_bytes = 0;  ///< ends growth for kHull; 0: no limit
+  bool bounded = false;                    ///< add further facets until the outer planes bound a region
+  double confidence = 0.95;                ///< of intervals and bounds
+  std::uint64_t seed = 1;                  ///< of rays
+  unsigned threads = 0;                    ///< 0: all cores. The result does not depend on it.
+  std::stop_token stop = {};               ///< ends the search with what was found
   /// Called from the calling thread with a few words on how far it is.
   std::function<void(std::string_view)> progress = {};
 };

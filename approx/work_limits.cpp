@@ -50,28 +50,28 @@ std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimensio
 }
 
 std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const {
-  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.max_memory_bytes / 8);
+  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.most_memory() / 8);
   const std::uint64_t used = point_bytes + whole_pages;
-  const std::uint64_t left = limits_.max_memory_bytes > used ? limits_.max_memory_bytes - used : 0;
+  const std::uint64_t left = limits_.most_memory() > used ? limits_.most_memory() - used : 0;
   return std::max<std::uint64_t>(1, left / bytes_a_row);
 }
 
 std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const {
-  if (limits_.max_memory_bytes == 0) return 0;
+  if (limits_.most_memory() == 0) return 0;
   const bool merges = must_cover_ || !work.shifted_points.empty();
   return rows_for(row_bytes(work, dimension, merges, must_cover_), point_bytes);
 }
 
 bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
                                      std::uint64_t point_bytes) const {
-  if (limits_.max_memory_bytes == 0) return true;
+  if (limits_.most_memory() == 0) return true;
   return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
 }
 
 bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimension,
                                       std::uint64_t point_bytes, std::uint64_t points) const {
-  if (limits_.max_memory_bytes == 0) return true;
+  if (limits_.most_memory() == 0) return true;
   const std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false) +
                                     4 * work.rank + 8 * dimension + kSearchBytes;
   const std::uint64_t bytes_of_points = point_bytes + points * dimension * kSearchedCoordinate;

@@ -1,5 +1,6 @@
 #include "core/growth.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,13 +14,27 @@
 namespace ndhull {
 namespace {
 
+/// [bytes] of address space that the system lets this process have (`ulimit -v`, some batch systems).
+std::size_t address_space() {
+  std::size_t least = SIZE_MAX;
+  for (const auto kind : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(kind, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      least = std::min<std::size_t>(least, limit.rlim_cur);
+  }
+  return least;
+}
+
 /// Rows that are given address space: what would fill twice the machine's memory. Only touched pages count.
+/// Where address space itself is limited, two fifths of it: what follows growth needs as much.
 std::size_t row_capacity(std::size_t rank) {
   const auto machine_bytes =
       static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t row_bytes = 16 * rank;
+  // With lists of visible simplices and of ridges, one for growth and one for each of two threads.
+  const std::size_t reserved_bytes = row_bytes + 16 + 3 * (12 * rank + 16);
   constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
-  return std::min(2 * machine_bytes / row_bytes, kMostRows);
+  return std::min({2 * machine_bytes / row_bytes, address_space() / 5 * 2 / reserved_bytes, kMostRows});
 }
 
 /// The dual vertex of the plane through `rank` points, refined once.

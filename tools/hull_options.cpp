@@ -98,7 +98,9 @@ void HullOptionSet::add_to(CLI::App& command) {
       ->type_name("S")
       ->check(positive_number());
   command
-      .add_option("--max-memory", max_memory_, "limit: memory of the whole run, like 4G, 512M or 65536 bytes")
+      .add_option("--max-memory", max_memory_,
+                  "limit: memory of the whole run, like 4G, 512M or 65536 bytes; otherwise four fifths of "
+                  "what is free")
       ->type_name("B");
   command.add_flag("--unit-cube", options_.unit_cube,
                    "measure offsets, widths and roundoff after scaling the input to the unit cube");

@@ -18,6 +18,7 @@
 #include "tools/hull_summary.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
+#include "tools/machine_memory.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/plane_writer.h"
@@ -112,10 +113,17 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
   }
 }
 
-/// What reading left of the limits. A limit that is used up leaves the smallest one.
-Limits limits_left(Limits limits, double seconds, std::uint64_t bytes) {
-  if (limits.max_seconds > 0.0) limits.max_seconds = std::max(limits.max_seconds - seconds, 1e-9);
+/// [s] that are left of the limit since then; one that is used up leaves next to nothing, 0 is none.
+double seconds_left(const Limits& limits, Clock::time_point start) {
+  return limits.max_seconds > 0.0 ? std::max(limits.max_seconds - seconds_since(start), 1e-9) : 0.0;
+}
+
+/// What is left of the limits since then, or what the machine has.
+Limits limits_left(Limits limits, Clock::time_point start) {
+  const std::uint64_t bytes = resident_memory_bytes();
+  limits.max_seconds = seconds_left(limits, start);
   if (limits.max_memory_bytes > bytes) limits.max_memory_bytes -= bytes;
+  limits.machine_memory_bytes = memory_of_machine();
   return limits;
 }
 
@@ -129,7 +137,7 @@ std::size_t kept_file_bytes(const Limits& limits) {
 /// 0: no limit.
 double seconds_for_measure(const Limits& limits, Clock::time_point start) {
   constexpr double kShare = 0.8;
-  return kShare * limits_left(limits, seconds_since(start), 0).max_seconds;
+  return kShare * seconds_left(limits, start);
 }
 
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
@@ -191,7 +199,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
 
   interrupt.arm();
   HullOptions hull_options = context.options;
-  hull_options.limits = limits_left(hull_options.limits, seconds_since(start), resident_memory_bytes());
+  hull_options.limits = limits_left(hull_options.limits, start);
   std::optional<Hull> computed = input.compute(hull_options);
 
   std::optional<Verification> verification;
@@ -260,7 +268,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   if (!request.curve_path.empty()) {
     progress.show_phase("curve");
     hull_options.progress = nullptr;
-    hull_options.limits = limits_left(request.options.limits, seconds_since(start), resident_memory_bytes());
+    hull_options.limits = limits_left(request.options.limits, start);
     write_trade_curve(curve_paths(request.curve_path),
                       trade_curve(points, hull_options, hull, context.total_seconds - context.read_seconds),
                       request.options.unit_cube ? "unit cube" : "input");

@@ -12,6 +12,7 @@
 #include "tools/halfspace_reader.h"
 #include "tools/interrupt.h"
 #include "tools/intersection_writer.h"
+#include "tools/machine_memory.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/point_writer.h"
@@ -59,6 +60,7 @@ int run_intersect(const IntersectRequest& request) {
   context.vertex_list = request.vertex_list;
   if (!context.options.interior_point) context.options.interior_point = file.interior_point;
   context.options.stop = interrupt.token();
+  context.options.limits.machine_memory_bytes = memory_of_machine();
   const bool wants_vertices = !request.vertices_path.empty() || !request.formats.empty();
   context.options.measure = !request.report_path.empty() || !wants_vertices;
   if (progress.is_shown()) {

@@ -17,6 +17,7 @@
 #include "tools/exit_code.h"
 #include "tools/index_writer.h"
 #include "tools/interrupt.h"
+#include "tools/machine_memory.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/plane_writer.h"
@@ -110,6 +111,7 @@ int run_largest(const LargestRequest& request) {
                                                            : static_cast<int>(request.options.threads));
   context.options.threads = static_cast<unsigned>(arena.max_concurrency());
   context.options.stop = interrupt.token();
+  context.options.machine_memory_bytes = memory_of_machine();
   if (progress.is_shown()) {
     context.options.progress = [&progress](std::string_view words) { progress.show_phase(words); };
   }

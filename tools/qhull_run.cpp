@@ -14,6 +14,7 @@
 #include "tools/attached_points.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/machine_memory.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/point_reader.h"
@@ -133,9 +134,16 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   }
   HullOptions options = hull_options(command, threads);
   options.stop = interrupt.token();
+  options.limits.machine_memory_bytes = memory_of_machine();
   if (command.progress_facets > 0) options.progress = FacetCounter(command.progress_facets);
   interrupt.arm();
   const Result result = compute(points, command, options);
+  if (result.hull.status == HullStatus::kMemoryLimit) {
+    fmt::print(stderr,
+               "ndhull: warning: the machine's memory ended growth; the facets are those of {} vertices, and "
+               "their outer planes hold for all points\n",
+               result.hull.vertices.size());
+  }
 
   if (command.verify) {
     // Joggled planes are widened: they hold for the points as they were.

@@ -12,6 +12,7 @@
 #include "tools/command_options.h"
 #include "tools/hull_options.h"
 #include "tools/interrupt.h"
+#include "tools/machine_memory.h"
 #include "tools/named_outputs.h"
 #include "tools/output_file.h"
 #include "tools/progress_line.h"
@@ -95,6 +96,7 @@ ViewedHull load(const ViewArguments& arguments, int& exit_code) {
   PointFile points = parse_points(std::move(bytes), arguments.source_path);
   HullOptions options = arguments.hull.complete();
   options.stop = interrupt.token();
+  options.limits.machine_memory_bytes = memory_of_machine();
   if (progress.is_shown()) options.progress = [&progress](const Progress& now) { progress.show(now); };
   interrupt.arm();
   const Hull hull = convex_hull(points.view(), options);

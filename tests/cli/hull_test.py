@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import numpy
-from program import DIAMONDS, PROGRAM, fresh_folder, one_error_line, rbox, report_of, run, run_tests
+from program import DIAMONDS, PATIENCE, PROGRAM, fresh_folder, one_error_line, rbox, report_of, run, run_tests
 
 KEYS = """ndhull input status options length_unit vertices facets simplicial_facets merged_facets simplices area
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
@@ -141,6 +141,22 @@ def test_a_mapped_file_does_not_count_where_memory_is_short():
     short = report_of(path, "--max-memory", "56M")
     assert short["status"] == "complete" and short["peak_memory_bytes"] < 1.1 * 56 * 2**20, short["peak_memory_bytes"]
     assert short["facets"] == report_of(path)["facets"]
+
+
+def test_little_address_space_is_enough_and_ends_growth():
+    path = fresh_folder("hull_space") / "points.npy"
+    rbox("300 s D7 t1", path)
+    whole = report_of(path, "--threads", "1")
+    for megabytes, status in [(1000, "complete"), (100, "memory_limit")]:
+        limit = ["prlimit", f"--as={megabytes * 2**20}", PROGRAM]
+        if subprocess.run([*limit, "--version"], capture_output=True, check=False).returncode:
+            return  # a sanitizer takes more for itself
+        words = [*limit, "hull", path, "--threads", "1", "--report", "-"]
+        done = subprocess.run(words, capture_output=True, timeout=PATIENCE, check=False)
+        assert done.returncode == 0, (megabytes, done.stderr)
+        report = json.loads(done.stdout)
+        assert report["status"] == status and report["points_outside"] == 0, (megabytes, report["status"])
+        assert (report["facets"] == whole["facets"]) == (status == "complete"), report["facets"]
 
 
 def test_a_search_for_points_left_out_keeps_the_memory_limit():

@@ -203,6 +203,26 @@ TEST(LimitsExample, MemoryEndsGrowth) {
   EXPECT_LT(hull_of(set, options).simplices().row_count, 3'000'000U / 133U);
 }
 
+TEST(LimitsLaw, TheMachinesMemoryEndsGrowthAndChangesNothingBefore) {
+  const PointSet set = sphere(2000, 8);
+  expect_certified_with(HullStatus::kMemoryLimit, set, {.limits = {.machine_memory_bytes = 3'000'000}});
+  // A limit of the user's is the one in force.
+  expect_certified_with(HullStatus::kMemoryLimit, set,
+                        {.limits = {.max_memory_bytes = 3'000'000, .machine_memory_bytes = 1'000'000'000}});
+  const PointSet whole = sphere(300, 6);
+  for (const double percent : {0.0, 5.0}) {
+    HullOptions options;
+    if (percent > 0.0) options.accuracy.width = {.value = percent, .is_percent = true};
+    const Hull free = hull_of(whole, options);
+    options.limits.machine_memory_bytes = 100'000'000;
+    const Hull kept = hull_of(whole, options);
+    EXPECT_EQ(kept.status, HullStatus::kComplete);
+    ASSERT_EQ(kept.facet_count(), free.facet_count());
+    for (std::uint32_t id = 0; id < free.facet_count(); ++id)
+      ASSERT_EQ(kept.outer_offset(FacetId{id}), free.outer_offset(FacetId{id}));
+  }
+}
+
 TEST(LimitsExample, AStopRequestedBeforeLeavesTheFirstSimplexOrMore) {
   std::stop_source source;
   source.request_stop();
