@@ -104,18 +104,19 @@ std::vector<std::uint32_t> FacetSearch::enter(std::span<const WalkResult> walks)
     ids[row] = static_cast<std::uint32_t>(facets_.size());
     facets_.emplace_back();
     neighbours_.emplace_back();
+    vertices_.emplace_back();
     points_.insert(points_.end(), on_plane.begin(), on_plane.end());
     begins_.push_back(points_.size());
-    bases_.insert(bases_.end(), walks[row].basis.begin(), walks[row].basis.end());
     facets_of_hash_[hash_of(on_plane)].push_back(ids[row]);
     first_walks.push_back(row);
   }
   for_each_block(first_walks.size(), 1, [&](std::size_t one, std::size_t) {
     const WalkResult& walk = walks[first_walks[one]];
-    const RayFacet made = geometry_.make_facet(walk.on_plane, walk.basis);
-    FoundFacet& facet = facets_[ids[first_walks[one]]];
-    facet.area = made.area;
-    facet.area_is_whole = made.area_is_whole;
+    RayFacet made = geometry_.make_facet(walk.on_plane, walk.basis);
+    const std::uint32_t id = ids[first_walks[one]];
+    facets_[id].area = made.area;
+    facets_[id].area_is_whole = made.area_is_whole;
+    if (made.points.size() > walk.basis.size()) vertices_[id] = std::move(made.vertices);
   });
   return ids;
 }
@@ -238,9 +239,19 @@ bool FacetSearch::add_hit_by(const std::vector<double>& direction, std::uint32_t
 
 RayFacet FacetSearch::geometry_of(std::uint32_t facet) const {
   const auto points = points_of(facet);
-  const std::size_t rank = shooter_.frame().rank;
-  const auto* const basis = bases_.data() + facet * rank;
-  return geometry_.make_facet({points.begin(), points.end()}, {basis, basis + rank});
+  RayFacet result;
+  result.points.assign(points.begin(), points.end());
+  result.vertices = vertices_of(facet);
+  result.plane = geometry_.fit_plane(result.points);
+  result.area = facets_[facet].area;
+  result.area_is_whole = facets_[facet].area_is_whole;
+  return result;
+}
+
+std::vector<std::uint32_t> FacetSearch::vertices_of(std::uint32_t facet) const {
+  const auto points = points_of(facet);
+  if (points.size() > shooter_.frame().rank) return vertices_[facet];
+  return {points.begin(), points.end()};
 }
 
 std::vector<std::uint32_t> FacetSearch::largest(std::size_t count) const {

@@ -61,7 +61,7 @@ class FacetSearch {
   std::span<const std::uint32_t> points_of(std::uint32_t facet) const {
     return {points_.data() + begins_[facet], begins_[facet + 1] - begins_[facet]};
   }
-  /// Plane, vertices, area of a facet.
+  /// Plane, vertices, area of a facet, as they were found.
   RayFacet geometry_of(std::uint32_t facet) const;
   /// The `count` largest, the largest first; equal areas in the order they were found.
   std::vector<std::uint32_t> largest(std::size_t count) const;
@@ -79,6 +79,7 @@ class FacetSearch {
   std::uint32_t find(std::span<const std::uint32_t> points) const;
   /// The facets of walks, in order; kNone for those left open. New ones are added.
   std::vector<std::uint32_t> enter(std::span<const WalkResult> walks);
+  std::vector<std::uint32_t> vertices_of(std::uint32_t facet) const;
   void climb_from(std::span<const std::uint32_t> from, std::stop_token stop);
   void lead(std::uint32_t facet, std::uint32_t ray);
 
@@ -90,9 +91,10 @@ class FacetSearch {
   Eigen::MatrixXd to_direction_;
   std::vector<FoundFacet> facets_;
   std::vector<std::size_t> begins_{0};
-  std::vector<std::uint32_t> points_, bases_;                                     // bases: rank a facet
+  std::vector<std::uint32_t> points_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> facets_of_hash_;  // looked up only
   std::vector<std::vector<std::uint32_t>> neighbours_;                            // of facets climbed from
+  std::vector<std::vector<std::uint32_t>> vertices_;  // of facets with more than rank points
   std::uint64_t rays_ = 0, open_rays_ = 0, climbs_ = 0;
 };
 

@@ -37,6 +37,8 @@ constexpr std::size_t kFacetsPerClimb = 128;
 constexpr double kMostWork = 6e11;
 /// [multiply-adds] What a walk costs beside its products: factoring the basis, areas.
 constexpr double kWorkPerWalk = 4000.0;
+/// Rays at once where time is limited.
+constexpr std::uint64_t kRaysWithinTime = 64;
 /// Directions in which planes may be open, and facets that close them, before it is given up.
 constexpr std::size_t kMostBounding = 1000;
 /// So many coincidences among the first rays tell how many facets there are; fewer tell nothing.
@@ -72,7 +74,16 @@ double LargestSearch::work() const {
 }
 
 void LargestSearch::shoot(std::uint64_t rays) {
-  hit_ = search_.shoot(rays, options_.stop);
+  // With a limit on time a few at once: facets with thousands of points take some hundredths of a second
+  // each.
+  const std::uint64_t at_once = options_.max_seconds > 0.0 ? kRaysWithinTime : rays;
+  hit_.clear();
+  for (std::uint64_t shot = 0; shot < rays && !(shot > 0 && is_time_over()); shot += at_once) {
+    const std::vector<std::uint32_t> hit = search_.shoot(std::min(at_once, rays - shot), options_.stop);
+    hit_.insert(hit_.end(), hit.begin(), hit.end());
+  }
+  std::sort(hit_.begin(), hit_.end());
+  hit_.erase(std::unique(hit_.begin(), hit_.end()), hit_.end());
   if (options_.progress) {
     options_.progress("rays " + std::to_string(search_.rays()) + ", facets " +
                       std::to_string(search_.size()));

@@ -3,6 +3,8 @@
 // below the plane in input units the area is rank cone / h.
 #include "approx/ray_facets.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +63,8 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   result.coordinates.assign(within.data(), within.data() + within.size());
   HullOptions options;
   options.limits.max_facets = kMaxSimplicesInPlane;
+  options.certifies_planes = false;  // those of ridges are not used
+  options.threads = static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
   result.hull = convex_hull(
       PointView::row_major(result.coordinates.data(), facet.points.size(), points.rank - 1), options);
   return result;

@@ -34,14 +34,16 @@ class FacetGeometry {
   RayFacet make_facet(const std::vector<std::uint32_t>& on_plane,
                       const std::vector<std::uint32_t>& basis) const;
 
-  /// Walks over the ridges of a facet; of very many, over the largest ones. Uses points and
-  /// vertices only.
+  /// a with a.y = 1 on the points, in the frame, by least squares.
+  std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;
+
+  /// Walks over the ridges of a facet; of very many, over the largest ones. Of a simplex
+  /// points and vertices are enough.
   std::vector<WalkTask> ridge_walks(const RayFacet& facet) const;
 
  private:
   struct InPlane;
   double area_per_determinant(const std::vector<double>& plane) const;
-  std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;
   InPlane project(const RayFacet& facet) const;
 
   const RayShooter& shooter_;
