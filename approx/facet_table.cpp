@@ -310,7 +310,8 @@ class TableMaker {
     for (std::size_t facet = layout_.simplicial; facet < count_; ++facet) table_.area += table_.areas[facet];
   }
 
-  /// Areas of the merged facets: of the projection of their simplices onto their plane.
+  /// Areas of the merged facets: of the projection of their simplices onto their plane. A simplex that faces
+  /// the other way is taken off, and of a wide facet most may: nothing is left then.
   void project_areas(double area_per_determinant) {
     const std::size_t count = count_ - layout_.simplicial;
     std::vector<double> directions(count * dimension_), lengths(count);
@@ -321,8 +322,9 @@ class TableMaker {
       double cosine = 0.0;
       for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[m * dimension_ + k] * normal[k];
       // A facet of simplices without volume has no direction either.
-      table_.areas[facet] =
-          std::isfinite(cosine) ? to_input_size(lengths[m] * cosine * area_per_determinant) : 0.0;
+      table_.areas[facet] = std::isfinite(cosine) && cosine > 0.0
+                                ? to_input_size(lengths[m] * cosine * area_per_determinant)
+                                : 0.0;
     }
   }
 

@@ -168,7 +168,9 @@ class Hull {
   double centred_offset(FacetId facet) const { return centred_offsets_[facet.value]; }
   double outer_offset(FacetId facet) const { return outer_[facet.value]; }  ///< >= 0, length unit
   double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
-  double area_of(FacetId facet) const { return areas_[facet.value]; }       ///< input units
+  /// Input units, >= 0. Of a merged facet: of the projection of its simplices onto its plane, less what
+  /// faces the other way.
+  double area_of(FacetId facet) const { return areas_[facet.value]; }
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
 

@@ -101,5 +101,26 @@ TEST(MergeLaw, CosineMergesNeighboursThatAgree) {
   }
 }
 
+// A facet may hold more simplices that face away from it than others: slabs thicker than the lens, or planes
+// hardly more than a simplex has.
+TEST(AreaLaw, NoFacetHasLessThanNone) {
+  HullOptions wide, few, for_volume;
+  wide.accuracy.width = {10.0, true};
+  few.accuracy.facets = 5;
+  for_volume.accuracy.facets = 6;
+  for_volume.accuracy.objective = FacetObjective::kVolume;
+  const PointSet lens = family_points(PointFamily::kLens, 40, 4, 2);
+  for (const HullOptions& options : {wide, few, for_volume}) {
+    const Hull hull = hull_of(lens, options);
+    double sum = 0.0;
+    for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+      EXPECT_GE(hull.area_of(FacetId{row}), 0.0) << row << " of " << hull.facet_count();
+      sum += hull.area_of(FacetId{row});
+    }
+    EXPECT_GT(sum, 0.0);
+    EXPECT_LE(sum, hull.area * (1.0 + 1e-9));
+  }
+}
+
 }  // namespace
 }  // namespace ndhull
