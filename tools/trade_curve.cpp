@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "approx/work_end.h"
 #include "core/error.h"
 #include "tools/output_file.h"
 #include "tools/point_extent.h"
@@ -26,17 +27,19 @@ class LogAxis {
   double place_of(double value) const {
     return from_ + (to_ - from_) * (std::log10(value) - low_) / (high_ - low_);
   }
-  /// 1, 2 and 5 times powers of ten; over more than three decades the powers alone.
-  std::vector<double> ticks() const {
-    std::vector<double> values;
+  /// 1, 2 and 5 times powers of ten; over more than three decades the powers alone; where fewer than two of
+  /// them are on the axis, multiples of a finer step.
+  std::vector<Tick> ticks() const {
+    std::vector<Tick> ticks;
     for (double power = std::floor(low_); power <= high_; ++power) {
       for (const double digit : {1.0, 2.0, 5.0}) {
         if (digit > 1.0 && high_ - low_ > 3.0) continue;
         const double value = digit * std::pow(10.0, power), place = std::log10(value);
-        if (place >= low_ - 1e-9 && place <= high_ + 1e-9) values.push_back(value);
+        if (place >= low_ - 1e-9 && place <= high_ + 1e-9) ticks.push_back({value, three_digits(value)});
       }
     }
-    return values;
+    constexpr std::size_t kFineTicks = 6;  // then two are on any axis
+    return ticks.size() >= 2 ? ticks : round_ticks(std::pow(10.0, low_), std::pow(10.0, high_), kFineTicks);
   }
 
  private:
@@ -57,13 +60,14 @@ std::vector<TradePoint> visible(const std::vector<TradePoint>& curve) {
 
 void write_axes(OutputFile& file, const LogAxis& across, const LogAxis& up, const std::string& unit) {
   const double right = kPictureWidth - kRight, bottom = kPictureHeight - kBottom;
-  for (const double value : across.ticks()) {
+  for (const auto& [value, label] : across.ticks()) {
     const double x = across.place_of(value);
     file.print("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/>\n", x, kTop, bottom);
     file.print("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", x,
-               bottom + 18, three_digits(value));
+               bottom + 18, label);
   }
-  for (const double value : up.ticks()) {
+  for (const auto& [value, label] : up.ticks()) {
+    if (value != std::round(value)) continue;  // there is no half facet
     const double y = up.place_of(value);
     file.print("<path class=\"grid\" d=\"M{} {:.1f}H{}\"/>\n", kLeft, y, right);
     file.print("<text class=\"tick\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.0f}</text>\n", kLeft - 8,
@@ -121,18 +125,22 @@ std::vector<TradePoint> trade_curve(const PointView& points, const HullOptions& 
                                     double seconds) {
   std::vector<TradePoint> curve{{first.facet_count(), first.max_facet_width, seconds}};
   const double extent = options.unit_cube ? 1.0 : largest_extent(points);
+  const WorkEnd end(options.limits.max_seconds, options.stop);
   double width = std::max(kStep * first.max_facet_width, kFirstShare * extent);
   for (; width <= kLastShare * extent && curve.back().facets > first.rank + 1; width *= kStep) {
     HullOptions coarser = options;
     coarser.accuracy = Accuracy{};
     coarser.accuracy.width = {width, false};
     coarser.triangulate = false;
+    coarser.limits.max_seconds = end.seconds_left();
     const Hull hull = convex_hull(points, coarser);
     if (hull.status != HullStatus::kComplete) break;
     const auto& spent = hull.statistics.seconds;
     double total = 0.0;
     for (const double part : spent) total += part;
     if (hull.facet_count() >= curve.back().facets) continue;
+    // What a wider target gives can be narrower: then it takes the place of those before.
+    while (curve.size() > 1 && curve.back().width >= hull.max_facet_width) curve.pop_back();
     curve.push_back({hull.facet_count(), hull.max_facet_width, total});
   }
   return curve;

@@ -19,13 +19,16 @@ struct TradePoint {
 
 /// Hulls of the same points with larger and larger target widths, each 1.41 times the one before, from that
 /// of `first` (or 1 % of the largest extent if it is finer) until a simplex's number of facets is reached, 64
-/// % of the extent, a limit or a stop. `first` comes first; a hull with as many facets as a narrower one is
-/// left out.
+/// % of the extent, a limit or a stop.
 ///
-/// Shapes  points as for convex_hull; options: those of `first`, whose limits each hull is under as well;
-///         seconds: what `first` took.
+/// Rows    `first` comes first, then fewer and fewer facets. A hull is left out when another has no more
+///         facets and none wider, so widths rise from the second row on. `first` stays even so: one that was
+///         merged by another rule may be beaten.
+/// Shapes  points as for convex_hull; options: those of `first`, whose limits each hull is under as well, but
+///         for the seconds, which are for all of them together; seconds: what `first` took.
 /// Cost    a hull each; together some 3 times the first when that has a target, else 5 to 10 times the exact
-/// hull. Throws  as convex_hull.
+///         hull.
+/// Throws  as convex_hull.
 std::vector<TradePoint> trade_curve(const PointView& points, const HullOptions& options, const Hull& first,
                                     double seconds);
 

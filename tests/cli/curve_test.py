@@ -43,6 +43,28 @@ def test_the_picture_has_every_point_that_a_logarithm_can_show():
     assert "facet width [input], certified" in texts and "facets" in texts, texts
 
 
+def test_no_row_is_beaten_by_a_later_one():
+    folder = fresh_folder("beaten")
+    for words in ("24 s D2 t26", "60 W1e-3 D3 t25", "11 D5 t28"):
+        run("hull", rbox(words, folder / "points.txt"), "--curve", folder / "trade", "--quiet")
+        rows = table_of(folder / "trade.csv")
+        for finer, coarser in zip(rows, rows[1:]):
+            assert finer[0] > coarser[0] and finer[1] < coarser[1], (words, finer, coarser)
+
+
+def test_every_axis_has_ticks():
+    folder = fresh_folder("ticks")
+    for words, width in (("30 s D2 t1", "30%"), ("30 s D2 t1", "60%"), ("300 s D4 t1", "35%"), ("300 s D4 t1", "45%")):
+        points = rbox(words, folder / "points.txt")
+        run("hull", points, "--width", width, "--curve", folder / "trade", "--quiet")
+        root = xml.etree.ElementTree.parse(folder / "trade.svg").getroot()
+        ticks = [text for text in root.iter("{http://www.w3.org/2000/svg}text") if text.get("class") == "tick"]
+        widths = [float(tick.text) for tick in ticks if tick.get("text-anchor") == "middle"]
+        facets = [int(tick.text) for tick in ticks if tick.get("text-anchor") == "end"]
+        assert len(widths) >= 2 and len(facets) >= 1, (words, width, widths, facets)
+        assert widths == sorted(set(widths)) and facets == sorted(set(facets)), (words, width, widths, facets)
+
+
 def test_what_cannot_be_written_is_said_before_anything_is_computed():
     folder = fresh_folder("errors")
     points = rbox("30 s D3 t1", folder / "points.txt")
