@@ -14,8 +14,8 @@ double dot(std::size_t rank, const double* a, const double* b) {
 
 /// Near points from which on only the highest are looked at.
 constexpr std::size_t kManyNear = 256;
-/// So many that it takes less to ask again for the highest than to put them in order.
-constexpr std::size_t kFarTooManyNear = 4096;
+/// Of so many points it takes less to ask a few times for the highest than once for all that are near.
+constexpr std::size_t kManyRows = 8192;
 
 /// work.near: the points within a width below `start`, the highest if they are very many, but no vertices of
 /// the facet.
@@ -31,11 +31,12 @@ void find_near(const WidthSpace& space, const FittedPlane& start, std::span<cons
     }
     for (const FurthestPoint& point : work.above) work.near.push_back(point.row);
   } else {
-    space.table().rows_above(work.products, start.height - start.width(), work.near);
-    for (double share = 0.0625; work.near.size() > kFarTooManyNear && share < 1.0; share *= 2.0) {
-      work.fewer.clear();
-      space.table().rows_above(work.products, start.height - share * start.width(), work.fewer);
-      if (work.fewer.size() >= kManyNear) work.near.swap(work.fewer);
+    const bool may_be_many = space.table().count() > kManyRows;
+    for (double share = may_be_many ? 0.0625 : 1.0; share <= 1.0 && work.near.size() < kManyNear;
+         share *= 2.0) {
+      work.near.clear();
+      space.table().rows_above(work.products, start.height - share * start.width(), space.table().count(),
+                               work.near);
     }
     if (work.near.size() > kManyNear)
       for (const std::uint32_t row : work.near) work.above.push_back({work.products.dots[row], row});

@@ -25,7 +25,6 @@ struct FittedPlane {
 struct PlaneFitWork {
   SupportProducts products;  ///< of the last measured direction with all points, unless these are many
   std::vector<FurthestPoint> above;
-  std::vector<std::uint32_t> fewer;
   std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first, beside the facet's vertices
   std::vector<std::uint32_t> pass_of_row;  ///< rows marked in this pass are vertices of the facet
   std::uint32_t pass = 0;

@@ -255,10 +255,9 @@ void SlabGrower::find_vertices_below(const FittedPlane& plane, double width, Sla
     scratch.vertices.resize(space_.vertex_count());
     std::iota(scratch.vertices.begin(), scratch.vertices.end(), 0u);
   } else {
-    space_.table().rows_above(scratch.fit.products, least, scratch.vertices);
+    space_.table().rows_above(scratch.fit.products, least, space_.vertex_count(), scratch.vertices);
   }
   std::erase_if(scratch.vertices, [&](std::uint32_t row) {
-    if (row >= space_.vertex_count()) return true;
     scratch.dots[row] = dot_of(plane.normal.data(), row);
     scratch.vertex_stamp[row] = scratch.vertex_pass;
     return scratch.dots[row] < least;

@@ -106,10 +106,9 @@ std::uint32_t SlabSeeds::best_of(const SeedChoice& seeds, double width, PlaneFit
     double height = 0.0;
     space_.table().find(normal.data(), work.products, height);
     rows.clear();
-    space_.table().rows_above(work.products, height - width, rows);
+    space_.table().rows_above(work.products, height - width, open_at_.size(), rows);
     std::uint64_t gain = 0;
-    for (const std::uint32_t row : rows)
-      if (row < open_at_.size()) gain += open_at_[row];
+    for (const std::uint32_t row : rows) gain += open_at_[row];
     if (gain <= most) continue;
     most = gain;
     best = seed;

@@ -116,10 +116,10 @@ std::uint32_t SupportTable::find(const double* direction, SupportProducts& produ
   return furthest;
 }
 
-void SupportTable::rows_above(const SupportProducts& products, double low,
+void SupportTable::rows_above(const SupportProducts& products, double low, std::size_t end,
                               std::vector<std::uint32_t>& rows) const {
   const auto least = static_cast<float>(low * scale_) - rounding_;
-  NDHULL_BEST_OF(find_rows_above)(products.dots.data(), count_, least, rows);
+  NDHULL_BEST_OF(find_rows_above)(products.dots.data(), end, least, rows);
 }
 
 }  // namespace ndhull

@@ -35,9 +35,10 @@ class SupportTable {
   ///         for each point that is within their rounding of the furthest.
   std::uint32_t find(const double* direction, SupportProducts& products, double& height) const;
 
-  /// Appends the rows with products of `low` or more, ascending; some that are less by rounding of single
-  /// precision may be among them.
-  void rows_above(const SupportProducts& products, double low, std::vector<std::uint32_t>& rows) const;
+  /// Appends those of the first `end` rows with products of `low` or more, ascending; some that are less by
+  /// rounding of single precision may be among them.
+  void rows_above(const SupportProducts& products, double low, std::size_t end,
+                  std::vector<std::uint32_t>& rows) const;
 
  private:
   std::size_t dimension_ = 0, count_ = 0;

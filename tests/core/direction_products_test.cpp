@@ -57,8 +57,12 @@ TEST_P(DirectionProducts, FurthestPointIsThatOfAllProductsInDoublePrecision) {
       EXPECT_EQ(dot(direction, rows.data() + row * kDimension), expected);
       const double low = expected - 0.3 * GetParam();
       std::vector<std::uint32_t> above;
-      table.rows_above(products, low, above);
+      table.rows_above(products, low, table.count(), above);
       EXPECT_TRUE(std::is_sorted(above.begin(), above.end()));
+      std::vector<std::uint32_t> of_first;
+      table.rows_above(products, low, count / 2, of_first);
+      EXPECT_EQ(of_first, std::vector<std::uint32_t>(
+                              above.begin(), std::lower_bound(above.begin(), above.end(), count / 2)));
       for (std::uint32_t i = 0; i < count; ++i) {
         const double product = dot(direction, rows.data() + i * kDimension);
         const bool is_there = std::binary_search(above.begin(), above.end(), i);
