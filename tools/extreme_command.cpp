@@ -9,8 +9,9 @@ namespace ndhull {
 
 void add_extreme_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<ExtremeRequest>();
-  CLI::App* const command =
-      app.add_subcommand("extreme", "The vertices of the hull alone, in any dimension; prints a summary.");
+  CLI::App* const command = app.add_subcommand(
+      "extreme",
+      "The vertices of the hull alone, in any dimension; prints a summary where standard output is free.");
   command->add_option("POINTS", request->points_path, "points: a file, or - for standard input")
       ->type_name("")
       ->check(path_name())
@@ -22,10 +23,10 @@ void add_extreme_command(CLI::App& app, int& exit_code) {
           ->type_name("K")
           ->check(whole_number(1));
   command
-      ->add_option(
-          "--vertices", request->vertices_path,
-          "write the indices of the vertices, with --keep of the chosen ones in their order: .npy or "
-          "text")
+      ->add_option("--vertices", request->vertices_path,
+                   "write the indices of the vertices, from 0, with --keep of the chosen ones in their "
+                   "order: .npy, .csv, "
+                   "or text after their number")
       ->type_name("FILE")
       ->check(path_name());
   command

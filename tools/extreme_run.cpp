@@ -227,7 +227,7 @@ int run_extreme(const ExtremeRequest& asked) {
   outcome.total_seconds = seconds_since(start);
   progress.clear();
   if (!request.report_path.empty()) write_text(request.report_path, report_json(request, outcome));
-  if (!request.has_output() && !request.quiet) write_text("-", summary(request, outcome));
+  if (!request.uses_standard_output() && !request.quiet) write_text("-", summary(request, outcome));
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -19,13 +19,13 @@ struct ExtremeRequest {
   bool progress = false;
   bool quiet = false;
 
-  bool has_output() const {
-    return !vertices_path.empty() || !planes_path.empty() || !distances_path.empty() || !report_path.empty();
+  bool uses_standard_output() const {
+    return vertices_path == "-" || planes_path == "-" || distances_path == "-" || report_path == "-";
   }
 };
 
 /// Reads the points, finds their vertices, chooses among them if asked, verifies, and writes what was asked
-/// for, the report last; without any output prints a summary.
+/// for, the report last; where nothing else goes to standard output a summary does.
 ///
 /// Returns  0; 2 when a plane does not part its vertex from all other points, which is said on standard error
 ///          and nothing is written; 130 when Ctrl-C came: what there is was written.

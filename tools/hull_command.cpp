@@ -23,18 +23,21 @@ struct HullArguments {
 
 void add_output_options(CLI::App& command, HullArguments& arguments) {
   HullRequest& request = arguments.request;
-  CLI::Option* const planes =
-      command
-          .add_option("--planes", request.planes_path, "write the facets' planes: .ine, .npy, or Qhull text")
-          ->type_name("FILE")
-          ->check(path_name());
+  CLI::Option* const planes = command
+                                  .add_option("--planes", request.planes_path,
+                                              "write the facets' planes a.x + b <= 0, rows a b in input "
+                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
   command
       .add_option("--plane-kind", arguments.plane_kind,
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
       ->type_name("KIND")
       ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
       ->needs(planes);
-  command.add_option("--vertices", request.vertices_path, "write the indices of the vertices: .npy or text")
+  command
+      .add_option("--vertices", request.vertices_path,
+                  "write the indices of the vertices, from 0: .npy, .csv, or text after their number")
       ->type_name("FILE")
       ->check(path_name());
   CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
@@ -93,8 +96,9 @@ HullRequest complete_request(const CLI::App& command, const HullArguments& argum
 
 void add_hull_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<HullArguments>();
-  CLI::App* const command =
-      app.add_subcommand("hull", "The convex hull of points, with certified planes; prints a summary.");
+  CLI::App* const command = app.add_subcommand(
+      "hull",
+      "The convex hull of points, with certified planes; prints a summary where standard output is free.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
       ->type_name("")
       ->check(path_name());
@@ -117,6 +121,8 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       "one.\n"
       "A limit that is hit ends growth; what there is is certified, written, and `status` in the report says "
       "so.\n"
+      "Of flat data planes are those within the subspace of the points, whose equations are in the report: "
+      "subspace_equations.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull hull points.npy --planes outer.ine --report report.json") + "\n" +

@@ -237,8 +237,8 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   }
   std::optional<OuterVolume> outer;
   std::optional<OuterDistance> outer_reach;
-  const bool is_summary = !request.has_output() && !request.quiet;
-  if (!request.report_path.empty() || is_summary) {
+  const bool is_summary = !request.uses_standard_output() && !request.quiet;
+  if (!request.report_path.empty() || (is_summary && !request.has_output())) {
     progress.show_phase("outer volume");
     const Clock::time_point volume_start = Clock::now();
     arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });

@@ -34,11 +34,14 @@ struct HullRequest {
     return !planes_path.empty() || !vertices_path.empty() || !report_path.empty() || !curve_path.empty() ||
            !formats.empty();
   }
+  bool uses_standard_output() const {
+    return planes_path == "-" || vertices_path == "-" || report_path == "-" || !formats.empty();
+  }
 };
 
 /// Reads the points, computes their hull, selects facets and verifies it if asked, and writes what was asked
-/// for, the report last; without any output prints a summary. A selection whose outer planes do not bound a
-/// region is said on standard error.
+/// for, the report last; where nothing else goes to standard output a summary does. A selection whose outer
+/// planes do not bound a region is said on standard error.
 ///
 /// Several processes: the first one writes and prints, the others return 0 or the exit code of an error that
 /// it prints for all. One that fails on its own prints that and ends all.

@@ -17,7 +17,8 @@ void write_indices(const std::string& path, std::span<const PointId> indices) {
       file.write({reinterpret_cast<const char*>(&index), sizeof index});
     }
   } else {
-    file.print("{}\n", indices.size());
+    // Qhull's form begins with their number, a table does not.
+    if (extension_of(path) != "csv" && extension_of(path) != "tsv") file.print("{}\n", indices.size());
     for (const PointId point : indices) file.print("{}\n", point.value);
   }
   file.commit();

@@ -55,11 +55,12 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
 
 void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
-  CLI::Option* const planes =
-      command
-          .add_option("--planes", request.planes_path, "write the facets' planes: .ine, .npy, or Qhull text")
-          ->type_name("FILE")
-          ->check(path_name());
+  CLI::Option* const planes = command
+                                  .add_option("--planes", request.planes_path,
+                                              "write the facets' planes a.x + b <= 0, rows a b in input "
+                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
   command
       .add_option("--plane-kind", arguments.plane_kind,
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
@@ -68,7 +69,7 @@ void add_output_options(CLI::App& command, LargestArguments& arguments) {
       ->needs(planes);
   command
       .add_option("--vertices", request.vertices_path,
-                  "write the indices of the facets' vertices: .npy or text")
+                  "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number")
       ->type_name("FILE")
       ->check(path_name());
   CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
@@ -95,8 +96,9 @@ LargestRequest complete_request(const LargestArguments& arguments) {
 
 void add_largest_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<LargestArguments>();
-  CLI::App* const command =
-      app.add_subcommand("largest", "The largest facets, also of a hull too big to build; prints a summary.");
+  CLI::App* const command = app.add_subcommand(
+      "largest",
+      "The largest facets, also of a hull too big to build; prints a summary where standard output is free.");
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
       ->type_name("")
       ->check(path_name())

@@ -145,7 +145,7 @@ int run_largest(const LargestRequest& request) {
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
   if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
-  if (!request.has_output() && !request.quiet) write_text("-", largest_summary(found, context));
+  if (!request.uses_standard_output() && !request.quiet) write_text("-", largest_summary(found, context));
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -23,11 +23,13 @@ struct LargestRequest {
   bool progress = false;
   bool quiet = false;
 
-  bool has_output() const { return !planes_path.empty() || !vertices_path.empty() || !report_path.empty(); }
+  bool uses_standard_output() const {
+    return planes_path == "-" || vertices_path == "-" || report_path == "-";
+  }
 };
 
 /// Reads the points, finds their largest facets, verifies their outer planes if asked, and writes what was
-/// asked for, the report last; without any output prints a summary.
+/// asked for, the report last; where nothing else goes to standard output a summary does.
 ///
 /// Returns  0; 2 when a point is above an outer plane as written, which is said on standard error and nothing
 ///          is written; 130 when Ctrl-C came: what there is was written.

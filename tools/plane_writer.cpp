@@ -32,6 +32,17 @@ void write_npy(OutputFile& file, std::size_t count, std::size_t dimension, const
   }
 }
 
+/// A row a line, without names: a table that `intersect`, `contains` and `verify` read.
+void write_table(OutputFile& file, std::size_t count, std::size_t dimension, char separator,
+                 const FillPlane& planes) {
+  std::vector<double> row(dimension + 1);
+  for (std::size_t index = 0; index < count; ++index) {
+    planes(index, row.data());
+    for (std::size_t k = 0; k <= dimension; ++k)
+      file.print("{:.17g}{}", row[k], k == dimension ? '\n' : separator);
+  }
+}
+
 void write_qhull_text(OutputFile& file, std::size_t count, std::size_t dimension, const FillPlane& planes) {
   file.print("{}\n{}\n", dimension + 1, count);
   std::vector<double> row(dimension + 1);
@@ -52,6 +63,8 @@ void write_planes(const std::string& path, std::size_t count, std::size_t dimens
     write_ine(file, count, dimension, planes);
   } else if (extension == "npy") {
     write_npy(file, count, dimension, planes);
+  } else if (extension == "csv" || extension == "tsv") {
+    write_table(file, count, dimension, extension == "csv" ? ',' : '\t', planes);
   } else {
     write_qhull_text(file, count, dimension, planes);
   }

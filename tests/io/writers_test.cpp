@@ -110,7 +110,8 @@ TEST(PlaneWriterLaw, WhatIsWrittenIsReadBackIdentically) {
   const Scratch scratch;
   const std::vector<double> rows = awkward_planes();
   for (const std::size_t dimension : {1U, 2U, 3U, 5U}) {
-    for (const char* name : {"planes.ine", "planes.npy", "planes.txt", "planes"}) {
+    for (const char* name :
+         {"planes.ine", "planes.npy", "planes.csv", "planes.tsv", "planes.txt", "planes"}) {
       SCOPED_TRACE(name);
       write_all(scratch.path(name), rows, dimension);
       const HalfspaceFile file = read_halfspaces(scratch.path(name));
