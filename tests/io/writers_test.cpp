@@ -147,6 +147,13 @@ TEST(IndexWriterExample, TextIsTheCountAndOneIndexALine) {
   EXPECT_EQ(scratch.read("a.txt"), "3\n7\n0\n12\n");
 }
 
+TEST(IndexWriterExample, ATableHasNoCount) {
+  const Scratch scratch;
+  const std::vector<PointId> ids{PointId{7}, PointId{0}, PointId{12}};
+  write_indices(scratch.path("a.csv"), ids);
+  EXPECT_EQ(scratch.read("a.csv"), "7\n0\n12\n");
+}
+
 TEST(IndexWriterExample, NpyIsOneAxisOfInt64) {
   const Scratch scratch;
   const std::vector<PointId> ids{PointId{7}, PointId{0}, PointId{12}};
