@@ -50,6 +50,21 @@ CLI::Validator path_name() {
   return {check, ""};
 }
 
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind) {
+  CLI::Option* const planes = command
+                                  .add_option("--planes", path,
+                                              "write the facets' planes a.x + b <= 0, rows a b in input "
+                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
+  command
+      .add_option("--plane-kind", kind,
+                  "outer (no input point is above; default), mean, or inner (no vertex is below)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->needs(planes);
+}
+
 std::string example(const std::string& text) { return "Example: " + text; }
 
 }  // namespace ndhull

@@ -19,6 +19,9 @@ CLI::Validator path_name();
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
 inline constexpr std::uint64_t kMostThreads = 1024;
 
+/// Adds --planes and --plane-kind, of the facets of a hull.
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind);
+
 /// The example at the end of a command's help.
 std::string example(const std::string& text);
 

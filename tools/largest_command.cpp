@@ -55,18 +55,7 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
 
 void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
-  CLI::Option* const planes = command
-                                  .add_option("--planes", request.planes_path,
-                                              "write the facets' planes a.x + b <= 0, rows a b in input "
-                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
-                                  ->type_name("FILE")
-                                  ->check(path_name());
-  command
-      .add_option("--plane-kind", arguments.plane_kind,
-                  "outer (no input point is above; default), mean, or inner (no vertex is below)")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
-      ->needs(planes);
+  add_plane_options(command, request.planes_path, arguments.plane_kind);
   command
       .add_option("--vertices", request.vertices_path,
                   "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number")

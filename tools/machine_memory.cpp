@@ -79,7 +79,10 @@ std::uint64_t available_memory_bytes(const fs::path& root) {
 }
 
 std::uint64_t memory_of_machine() {
-  return static_cast<std::uint64_t>(kShareOfMachine * static_cast<double>(available_memory_bytes()));
+  const std::uint64_t available = available_memory_bytes();
+  if (available == 0) return 0;
+  return std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(kShareOfMachine * static_cast<double>(available)));
 }
 
 }  // namespace ndhull
