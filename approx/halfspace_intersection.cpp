@@ -164,8 +164,10 @@ class Intersector {
     if (!options_.measure || polytope.status != HullStatus::kComplete) return;
     start = Clock::now();
     const PolytopeMeasure measure = measure_polytope(planes, polytope);
-    result_.volume = measure.volume;
-    result_.area = measure.area;
+    if (measure.status == HullStatus::kComplete) {
+      result_.volume = measure.volume;
+      result_.area = measure.area;
+    }
     result_.measure_seconds = seconds_since(start);
   }
 

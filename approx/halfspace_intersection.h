@@ -79,7 +79,7 @@ struct HalfspaceIntersection {
   std::vector<std::uint32_t> non_redundant;  ///< ascending, less equalities: without one the region is larger
   double max_residual = 0.0;                 ///< [distance] largest of a vertex from a plane it is on
 
-  std::optional<double> volume;  ///< of dimension rank; none where it is no double
+  std::optional<double> volume;  ///< of dimension rank; none: no double, or too much memory
   std::optional<double> area;    ///< of all facets, of dimension rank - 1
   double region_seconds = 0.0, dual_hull_seconds = 0.0, vertex_seconds = 0.0, measure_seconds = 0.0;
 

@@ -18,10 +18,10 @@ namespace {
 
 using Eigen::Index;
 
-// Measured on one core in 4-d to 8-d with 20 to 160 planes: 2 to 10 us for each vertex, which is a simplex of
+// Measured on one core in 4-d to 8-d with 20 to 160 planes: 2 to 15 us for each vertex, which is a simplex of
 // the dual hull and faces of all dimensions; 0.1 us for a simplex that growth made.
 constexpr double kSecondsPerSimplex = 1.5e-6;
-constexpr double kSecondsPerFace = 3e-8;
+constexpr double kSecondsPerFace = 3.5e-8;
 constexpr double kSecondsPerCreated = 1e-7;
 constexpr double kAffordableSeconds = 0.01;
 constexpr double kAffordableShare = 0.2;
@@ -152,8 +152,9 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
   spend_time();
   const PolytopeMeasure measure = measure_polytope(planes, polytope, options, false);
-  if (measure.status != HullStatus::kComplete)
-    return {std::nullopt, measure.status == HullStatus::kTimeLimit ? kOutOfTime : "interrupted"};
+  if (measure.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
+  if (measure.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
+  if (measure.status != HullStatus::kComplete) return too_many;
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
   const double volume = std::max(hull.volume, std::min(most, measure.volume));
   return is_in_range(volume) ? OuterVolume{volume, ""} : beyond;

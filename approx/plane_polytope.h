@@ -47,7 +47,7 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
 
 /// What the polytope measures.
 struct PolytopeMeasure {
-  HullStatus status = HullStatus::kComplete;  ///< kTimeLimit, kInterrupted: nothing is measured
+  HullStatus status = HullStatus::kComplete;  ///< otherwise nothing is measured
   double volume = 0.0;                        ///< of dimension rank
   double area = 0.0;                          ///< of all facets, of dimension rank - 1
 };
@@ -56,12 +56,14 @@ struct PolytopeMeasure {
 ///
 /// Method  Few vertices in which many planes meet: the hull of the vertices. Otherwise the measure of a face
 ///         is the sum over its own facets of height times measure, over its dimension, seen from one vertex
-///         of the face, so that no term is negative and nothing cancels. Faces are sets of planes; each is
-///         computed once (Bueler, Enge, Fukuda. Exact volume computation for polytopes: a practical study.
-///         Polytopes - Combinatorics and Computation, 2000).
-///         Thin polytopes are measured twice: their volume as linear images that are thin nowhere.
+///         of the face. Faces are sets of planes; each is computed once (Bueler, Enge, Fukuda. Exact volume
+///         computation for polytopes: a practical study. Polytopes - Combinatorics and Computation, 2000).
+///         Terms have signs (approx/signed_measure.h) to 9-d, and beyond where facets without signs are not
+///         in balance, so that faces that rounding has folded cancel. Thin polytopes are measured twice:
+///         their volume as linear images that are thin nowhere.
 /// Shapes  wants_area: otherwise the area may be 0.
-/// Limits  options.limits.max_seconds, options.stop.
+/// Limits  options.limits.max_seconds, options.stop; kMemoryLimit where signs are needed and take more than a
+///         gigabyte.
 /// Error   2e-13 relative was the largest seen on polytopes whose volume is known. Of thin ones the rounding
 ///         of the planes, over their thickness.
 /// Cost    time and memory by the faces of all dimensions, 2^rank a simplex at most: about 7 microseconds a
