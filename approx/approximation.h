@@ -66,7 +66,11 @@ class Approximation {
                        CountSearch& search);
   bool is_coarse_for(double slab, double outside_width);
   double guess_width(std::uint64_t count, CountSearch& search);
-  void consider(const Covering& covering, double slab, CountSearch& search);
+  double consider(const Covering& covering, double slab, CountSearch& search);
+  void close_and_join(Covering& covering, double width, bool joins) const;
+  void probe_widths(std::uint64_t count, CountSearch& search);
+  std::uint64_t balance_facets(std::uint64_t count, const Covering& start, double slab,
+                               std::uint64_t most_turns, CountSearch& search);
   bool grow_for_count(std::uint64_t count, double outside_width, double slab);
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.

@@ -4,6 +4,7 @@
 
 #include "approx/approximation.h"
 #include "approx/exact_facets.h"
+#include "approx/facet_balance.h"
 
 namespace ndhull {
 namespace {
@@ -25,18 +26,39 @@ constexpr std::uint64_t kMostCovered = 8'000'000;
 /// Rounds of more points, likewise.
 constexpr int kMostRounds = 24;
 constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
+/// What takes off the last tenth.
+constexpr CoverEffort kPlain{.final_fit_steps = 0};
+constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
 /// By how much the logarithm of the number may fall short: of a hull that goes on growing, and at the end.
 constexpr double kSome = 0.2, kLittle = 0.025;
+/// Steps of the width that are tried about the narrowest found, in vain each, and turns that balance what
+/// they find; simplices that they meet. Where facets hold hundreds of simplices they find hardly anything.
+constexpr double kProbeStep = 0.95;
+constexpr int kProbesThinner = 8, kProbesWider = 8;
+constexpr std::uint64_t kProbeTurns = 8, kMostProbed = 60'000;
+/// Facets are balanced until so many turns in sequence make them hardly narrower, and as long as the turns
+/// meet no more than this part of what all coverings have.
+constexpr int kIdleTurns = 4;
+constexpr double kNarrower = 0.998, kMostTurned = 0.5;
+/// Two facets are joined to split the widest when they fit into this part of its width.
+constexpr double kClearlyNarrower = 0.97;
 
 }  // namespace
 
-/// Remembers the narrowest over all points.
-void Approximation::consider(const Covering& covering, double slab, CountSearch& search) {
+/// Remembers the narrowest over all points. Returns how wide it is.
+double Approximation::consider(const Covering& covering, double slab, CountSearch& search) {
   const double width = true_widths(covering).widest();
-  if (search.has_any() && width >= search.width) return;
+  if (search.has_any() && width >= search.width) return width;
   search.narrowest = covering;
   search.width = width;
   search.slab = slab;
+  return width;
+}
+
+/// Facets whose planes bound a region, and fewer where two fit into one slab.
+void Approximation::close_and_join(Covering& covering, double width, bool joins) const {
+  close_open_directions(growth_.work().complex, *space_, covering);
+  if (joins) join_neighbours(covering, width);
 }
 
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
@@ -61,10 +83,7 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
     const double width = std::exp(log_width);
     Covering covering = cover.cover(width, effort);
     search.covered += cover.live_count();
-    if (covering.planes.size() <= 2 * count) {
-      close_open_directions(growth_.work().complex, *space_, covering);
-      if (joins) join_neighbours(covering, width);
-    }
+    if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
     const double log_count = std::log(static_cast<double>(covering.planes.size()));
     if (covering.planes.size() > count) {
       if (!many || log_width > many->log_width) many = Trial{log_width, log_count};
@@ -96,6 +115,71 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   }
   hull_.chosen.slab_width = best_width;
   return best;
+}
+
+/// Narrower facets, no more of them: simplices change facets and planes turn; where facets are fewer than may
+/// be, or two fit into one, the widest are split. True widths decide. Returns the turns taken.
+std::uint64_t Approximation::balance_facets(std::uint64_t count, const Covering& start, double slab,
+                                            std::uint64_t most_turns, CountSearch& search) {
+  FacetBalance balance(growth_.work().complex, *space_, is_convex(), start);
+  double width = HUGE_VAL;
+  std::uint64_t turn = 0;
+  for (int idle = 0; turn < most_turns && idle < kIdleTurns && search.width > flat(); ++turn) {
+    if (growth_.is_late()) break;
+    const std::size_t facets = balance.covering().planes.size();
+    if (turn % 2 == 1 && facets >= count) {
+      Covering joined = balance.covering();
+      join_neighbours(joined, kClearlyNarrower * std::min(width, balance.covering().widest));
+      if (joined.planes.size() < facets) balance.set_covering(std::move(joined));
+    }
+    if (balance.covering().planes.size() < count)
+      balance.split_widest((count - balance.covering().planes.size() + 2) / 3);
+    balance.turn();
+    if (!keeps_hull(balance.covering())) break;
+    const double before = width;
+    width = std::min(width, consider(balance.covering(), slab, search));
+    idle = width < kNarrower * before ? 0 : idle + 1;
+  }
+  return turn;
+}
+
+/// Slabs of widths near those of the narrowest covering. The number of facets scatters where they hold few
+/// simplices: thinner slabs may need no more, and wider ones may be narrower when they are fitted to the
+/// points.
+void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
+  SlabCover cover(growth_.work().complex, *space_, is_convex());
+  const bool joins = is_worth_joining(count, cover.live_count());
+  std::uint64_t left = kMostProbed;
+  const auto can_go_on = [&] {
+    return left >= cover.live_count() && search.width > flat() && !growth_.is_late();
+  };
+  const auto try_covering = [&](const Covering& covering, double slab) {
+    consider(covering, slab, search);
+    const std::uint64_t turns = balance_facets(count, covering, slab, kProbeTurns, search);
+    left -= std::min(left, turns * cover.live_count() / 4);  // a turn takes less time than a covering
+  };
+  const auto probe = [&](double width, const CoverEffort& effort) {
+    left -= cover.live_count();
+    Covering covering = cover.cover(width, effort);
+    if (covering.planes.size() > 2 * count) return;
+    close_and_join(covering, width, joins);
+    if (covering.planes.size() <= count && keeps_hull(covering)) try_covering(covering, width);
+  };
+  if (!search.has_any() || can_go_on()) {
+    const GrowthWork& work = growth_.work();
+    try_covering(cover_by_first_simplex(work.complex, *space_, frame_, growth_.coordinates()), 0.0);
+  }
+  double start = search.width, width = start * std::sqrt(kProbeStep);
+  for (int step = 0; step < kProbesThinner && can_go_on(); ++step, width *= kProbeStep) {
+    probe(width, kHarder);
+    if (can_go_on()) probe(width, kPlain);
+    if (search.width > 0.999 * start) continue;
+    start = search.width;
+    width = start / std::sqrt(kProbeStep);
+    step = -1;
+  }
+  width = start / std::sqrt(kProbeStep);
+  for (int step = 0; step < kProbesWider && can_go_on(); ++step, width /= kProbeStep) probe(width, kHarder);
 }
 
 /// Growth for so many facets that need slabs of this width. True when it has added a vertex.
@@ -131,7 +215,7 @@ double Approximation::guess_width(std::uint64_t count, CountSearch& search) {
   if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return 0.0;
   make_space(false);
   const double start = std::max(0.1 * lengths_.largest_extent, 1.1 * growth_.furthest_height());
-  const Covering covering = cover_count(count, CoverEffort{.final_fit_steps = 0}, start, kLittle, search);
+  const Covering covering = cover_count(count, kPlain, start, kLittle, search);
   return covering.planes.empty() ? start : hull_.chosen.slab_width;
 }
 
@@ -140,7 +224,7 @@ double Approximation::guess_width(std::uint64_t count, CountSearch& search) {
 FacetClusters Approximation::run_count() {
   const std::uint64_t count = accuracy_.facets;
   const bool is_given = lengths_.outside_width > 0.0;
-  CoverEffort effort{.final_fit_steps = 0};
+  CoverEffort effort = kPlain;
   CountSearch search;
   double width = is_given ? 0.0 : guess_width(count, search);
   double outside_width = is_given ? lengths_.outside_width : kShareForGrowth * width;
@@ -177,7 +261,7 @@ FacetClusters Approximation::run_count() {
     } else if (is_enough || is_settled) {
       if (is_enough || is_better_search || slab <= flat()) break;
       is_better_search = true;  // it needs fewer facets: a smaller width will do
-      effort = CoverEffort{.choices = 2, .refits = 2};
+      effort = kHarder;
       width *= 0.97;
     }
     if (!may_grow || (!is_coarse && offenders.above_simplices.empty())) continue;
@@ -185,11 +269,13 @@ FacetClusters Approximation::run_count() {
     if (grow_for_count(count, outside_width, slab)) search.narrowest = Covering{};  // rows are others now
   }
   hull_.chosen.outside_width = outside_width;
-  if (search.has_any()) {
-    hull_.chosen.slab_width = search.slab;
-  } else {
-    search.narrowest = cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
-  }
+  make_space(true);
+  probe_widths(count, search);
+  const double met = kMostTurned * static_cast<double>(search.covered + kMostProbed);
+  const double turns = met / static_cast<double>(growth_.work().complex.row_count);
+  const Covering start = search.narrowest;
+  balance_facets(count, start, search.slab, static_cast<std::uint64_t>(turns), search);
+  hull_.chosen.slab_width = search.slab;
   return clusters_of(search.narrowest, *space_);
 }
 

@@ -13,6 +13,9 @@
 
 namespace ndhull {
 
+/// Was it, or is it that of a simplex which stayed alone?
+inline bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
+
 /// Which simplices make up which facet, with the planes.
 struct Covering {
   std::vector<std::uint32_t> facet_of;  ///< per row of the complex; kNone in free rows

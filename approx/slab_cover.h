@@ -45,19 +45,11 @@ class SlabCover {
 
  private:
   using Members = std::span<const std::uint32_t>;
-  /// A part of a facet that hangs together with none of its others.
-  struct Stray {
-    std::uint32_t facet;
-    std::vector<std::uint32_t> simplices;
-  };
 
   void add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort);
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
   void measure_facets(Covering& covering, double width, const CoverEffort& effort);
   void settle(Members members, double width, const CoverEffort& effort, FittedPlane& plane);
-  std::vector<Stray> find_strays(const Covering& covering) const;
-  void gather_strays(Covering& covering, double width);
-  double depth_below(FittedPlane& plane, Members simplices);
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "approx/covering.h"
 #include "approx/width_space.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -53,5 +54,23 @@ struct GrownSphere {
   GrowthWork work;
   std::optional<WidthSpace> space;
 };
+
+/// Of each facet the largest depth of a vertex of the facet's simplices below the furthest point along its
+/// normal.
+inline std::vector<double> facet_widths(const GrownSphere& sphere, const Covering& covering) {
+  std::vector<double> lows(covering.planes.size(), HUGE_VAL), result;
+  for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
+    const std::uint32_t facet = covering.facet_of[row];
+    EXPECT_EQ(sphere.is_live(row), facet != kNone);
+    if (!sphere.is_live(row) || facet >= covering.planes.size()) continue;
+    for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
+      lows[facet] = std::min(lows[facet], sphere.product(covering.planes[facet].normal, id.value));
+  }
+  for (std::size_t facet = 0; facet < lows.size(); ++facet) {
+    EXPECT_LT(lows[facet], HUGE_VAL) << "a facet without a simplex";
+    result.push_back(sphere.height(covering.planes[facet].normal) - lows[facet]);
+  }
+  return result;
+}
 
 }  // namespace ndhull

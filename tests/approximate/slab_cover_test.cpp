@@ -13,23 +13,6 @@
 namespace ndhull {
 namespace {
 
-/// The largest depth of a vertex of the facet's simplices below the furthest point along its normal.
-std::vector<double> widths(const GrownSphere& sphere, const Covering& covering) {
-  std::vector<double> lows(covering.planes.size(), HUGE_VAL), result;
-  for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
-    const std::uint32_t facet = covering.facet_of[row];
-    EXPECT_EQ(sphere.is_live(row), facet != kNone);
-    if (!sphere.is_live(row) || facet >= covering.planes.size()) continue;
-    for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
-      lows[facet] = std::min(lows[facet], sphere.product(covering.planes[facet].normal, id.value));
-  }
-  for (std::size_t facet = 0; facet < lows.size(); ++facet) {
-    EXPECT_LT(lows[facet], HUGE_VAL) << "a facet without a simplex";
-    result.push_back(sphere.height(covering.planes[facet].normal) - lows[facet]);
-  }
-  return result;
-}
-
 TEST(SlabCoverLaw, EachSimplexIsInOneFacetNoWiderThanAsked) {
   const GrownSphere sphere("400 s D5 t1", 400);
   std::size_t last = SIZE_MAX;
@@ -40,7 +23,7 @@ TEST(SlabCoverLaw, EachSimplexIsInOneFacetNoWiderThanAsked) {
       CoverEffort effort{.final_fit_steps = 0};
       if (searches) effort = CoverEffort{.choices = 2, .refits = 2};
       const Covering covering = cover.cover(width, effort);
-      for (const double found : widths(sphere, covering)) EXPECT_LE(found, width * (1.0 + 1e-12));
+      for (const double found : facet_widths(sphere, covering)) EXPECT_LE(found, width * (1.0 + 1e-12));
       EXPECT_LT(covering.planes.size(), last);
       if (searches) last = covering.planes.size();
     }
