@@ -26,7 +26,7 @@ constexpr std::uint64_t kMostCovered = 8'000'000;
 /// Rounds of more points, likewise.
 constexpr int kMostRounds = 24;
 constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
-/// What takes off the last tenth.
+/// Coverings of the search, and what takes off the last tenth.
 constexpr CoverEffort kPlain{.final_fit_steps = 0};
 constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
 /// By how much the logarithm of the number may fall short: of a hull that goes on growing, and at the end.

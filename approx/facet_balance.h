@@ -2,8 +2,8 @@
 //
 // A covering takes what slabs of one width can hold, and holds some simplices in several; which of its facets
 // end up full is chance. Here each simplex goes to the neighbouring facet below whose plane it lies highest,
-// and planes are fitted to what they have then. Neither makes the widest facet wider, but for the points that
-// a turned plane meets anew, and parts that hang together with nothing.
+// and planes are fitted to what they have then. Neither makes the widest facet wider over the points of the
+// space, but for rounding in single precision.
 //
 // Papers  Lloyd. Least squares quantization in PCM. IEEE Trans. Inf. Theory 28, 1982; Cohen-Steiner, Alliez,
 //         Desbrun. Variational shape approximation. SIGGRAPH 2004 (there for the mean error); Gonzalez.
