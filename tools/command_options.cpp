@@ -50,6 +50,15 @@ CLI::Validator path_name() {
   return {check, ""};
 }
 
+CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
+  return command
+      .add_option_function<std::string>(
+          "--columns", [&columns](const std::string& list) { columns = ColumnChoice(list); },
+          "the columns that are coordinates, by number from 1 or by name of the header, as in mass,4,6-9; "
+          "others of a table may hold anything")
+      ->type_name("LIST");
+}
+
 void add_plane_options(CLI::App& command, std::string& path, std::string& kind) {
   CLI::Option* const planes = command
                                   .add_option("--planes", path,

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "tools/column_choice.h"
+
 namespace ndhull {
 
 /// A whole number in least .. most, in digits only: CLI11 alone would wrap -1 to the largest one.
@@ -18,6 +20,9 @@ CLI::Validator path_name();
 
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
 inline constexpr std::uint64_t kMostThreads = 1024;
+
+/// Adds --columns, of the points.
+CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns);
 
 /// Adds --planes and --plane-kind, of the facets of a hull.
 void add_plane_options(CLI::App& command, std::string& path, std::string& kind);

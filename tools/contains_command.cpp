@@ -25,6 +25,7 @@ struct ContainsArguments {
   std::string planes, queries;
   std::string output = "-";
   double width = 0.0;
+  ColumnChoice columns;
   unsigned threads = 0;
   bool summary = false;
 };
@@ -77,7 +78,7 @@ void run_contains(const ContainsArguments& arguments) {
                 "contains: found - for both, expected one of them in a file: standard input is read once");
   }
   const HalfspaceFile planes = read_halfspaces(arguments.planes);
-  const PointFile queries = read_points(arguments.queries);
+  const PointFile queries = read_points(arguments.queries, arguments.columns);
   check_outputs_are_writable({{"--output", arguments.output}}, {arguments.planes, arguments.queries});
   if (planes.dimension != queries.view().dimension) {
     throw Error(ErrorCode::kUsage,
@@ -123,6 +124,7 @@ void add_contains_command(CLI::App& app) {
           "the answer is \"within-width\"; default 0")
       ->type_name("W")
       ->check(number_from_0());
+  add_columns_option(*command, arguments->columns);
   command->add_flag("--summary", arguments->summary, "print counts and the furthest query only")
       ->excludes(output);
   command

@@ -16,6 +16,7 @@ void add_extreme_command(CLI::App& app, int& exit_code) {
       ->type_name("")
       ->check(path_name())
       ->required();
+  add_columns_option(*command, request->columns);
   CLI::Option* const keep =
       command
           ->add_option("--keep", request->keep,

@@ -116,13 +116,14 @@ std::string report_json(const ExtremeRequest& request, const Outcome& outcome) {
                    {"rank", found.rank}};
   json["status"] = to_string(found.status);
   json["options"] = {
+      {"columns", option_json(text_or_null(request.columns.list()))},
       {"keep", request.keep == 0 ? Json(nullptr) : Json(request.keep)},
       {"max_seconds", request.options.max_seconds == 0.0 ? Json(nullptr) : Json(request.options.max_seconds)},
       {"threads", request.options.threads},
-      {"vertices", option_json(path_or_null(request.vertices_path))},
-      {"planes", option_json(path_or_null(request.planes_path))},
-      {"distances", option_json(path_or_null(request.distances_path))},
-      {"report", option_json(path_or_null(request.report_path))},
+      {"vertices", option_json(text_or_null(request.vertices_path))},
+      {"planes", option_json(text_or_null(request.planes_path))},
+      {"distances", option_json(text_or_null(request.distances_path))},
+      {"report", option_json(text_or_null(request.report_path))},
       {"verify", request.verify},
       {"progress", request.progress},
       {"quiet", request.quiet}};
@@ -185,7 +186,7 @@ int run_extreme(const ExtremeRequest& asked) {
   tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
                                                      : static_cast<int>(request.options.threads));
   progress.show_phase("read");
-  const PointFile points = read_points(request.points_path);
+  const PointFile points = read_points(request.points_path, request.columns);
   check_outputs_are_writable(outputs, {request.points_path});
   request.options.threads = static_cast<unsigned>(arena.max_concurrency());
   request.options.stop = interrupt.token();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "approx/extreme_points.h"
+#include "tools/column_choice.h"
 
 namespace ndhull {
 
@@ -12,6 +13,7 @@ namespace ndhull {
 /// output.
 struct ExtremeRequest {
   std::string points_path;
+  ColumnChoice columns;
   ExtremeOptions options;
   std::size_t keep = 0;  ///< 0: all vertices
   std::string vertices_path, planes_path, distances_path, report_path;

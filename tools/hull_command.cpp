@@ -91,12 +91,14 @@ void add_hull_command(CLI::App& app, int& exit_code) {
   command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
       ->type_name("")
       ->check(path_name());
+  CLI::Option* const columns = add_columns_option(*command, arguments->request.columns);
   command
       ->add_option(
           "--points-sharded", arguments->request.shards_pattern,
           "instead of POINTS: the points of all files of this pattern, in the order of their names; with "
           "mpirun each process reads a share of them")
-      ->type_name("PATTERN");
+      ->type_name("PATTERN")
+      ->excludes(columns);
   arguments->hull.add_to(*command);
   add_selection_options(*command, arguments->request.selection);
   add_output_options(*command, *arguments);

@@ -42,12 +42,12 @@ auto call_in_group(const ProcessGroup* group, const Call& call) -> decltype(call
 
 }  // namespace
 
-HullInput::HullInput(const std::string& points_path, std::size_t kept_bytes,
+HullInput::HullInput(const std::string& points_path, const ColumnChoice& columns, std::size_t kept_bytes,
                      const std::string& shards_pattern, const ProcessGroup* group,
                      const std::function<void()>& check)
     : group_(group) {
   if (shards_pattern.empty()) {
-    file_ = read_points(points_path, kept_bytes);
+    file_ = read_points(points_path, columns, kept_bytes);
     check();
     return;
   }

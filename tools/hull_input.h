@@ -20,11 +20,11 @@ namespace ndhull {
 /// has one; what else one throws ends all, after one line on standard error.
 class HullInput {
  public:
-  /// Opens `points_path` (`kept_bytes`: as read_points has it), or the files of `shards_pattern` where that
-  /// is not empty. `check` is called by the first process once its points are known to be good. `group`: null
-  /// for one process. Throws  Error as read_points and ShardFiles do, and what `check` throws.
-  HullInput(const std::string& points_path, std::size_t kept_bytes, const std::string& shards_pattern,
-            const ProcessGroup* group, const std::function<void()>& check);
+  /// Opens `points_path` (`columns`, `kept_bytes`: as read_points has it), or the files of `shards_pattern`
+  /// where that is not empty. `check` is called by the first process once its points are known to be good.
+  /// `group`: null for one process. Throws  Error as read_points and ShardFiles do, and what `check` throws.
+  HullInput(const std::string& points_path, const ColumnChoice& columns, std::size_t kept_bytes,
+            const std::string& shards_pattern, const ProcessGroup* group, const std::function<void()>& check);
 
   /// The hull of all points: in the first process, nothing in the others. Points of it are rows of view().
   std::optional<Hull> compute(const HullOptions& options);

@@ -64,18 +64,19 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
     verify = std::string(*request.verify == VerifyMode::kExact ? "exact" : "floating");
   }
   if (!request.formats.empty()) formats = fmt::format("{}", fmt::join(request.formats, " "));
-  return {{"largest", value_or_null(selection.largest)},
+  return {{"columns", text_or_null(request.columns.list())},
+          {"largest", value_or_null(selection.largest)},
           {"select", std::string(to_string(selection.measure))},
           {"min_area", value_or_null(selection.min_area)},
           {"most_merged", value_or_null(selection.most_merged)},
           {"bounded", selection.bounded},
           {"outer_volume", request.outer_volume},
-          {"planes", path_or_null(request.planes_path)},
+          {"planes", text_or_null(request.planes_path)},
           {"plane_kind", std::string(to_string(request.plane_kind))},
-          {"vertices", path_or_null(request.vertices_path)},
-          {"report", path_or_null(request.report_path)},
+          {"vertices", text_or_null(request.vertices_path)},
+          {"report", text_or_null(request.report_path)},
           {"facet_list", request.facet_list},
-          {"curve", path_or_null(request.curve_path)},
+          {"curve", text_or_null(request.curve_path)},
           {"format", formats},
           {"verify", verify},
           {"progress", request.progress},
@@ -181,7 +182,8 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
                                                      : static_cast<int>(request.options.threads));
 
   progress.show_phase("read");
-  HullInput input(request.points_path, kept_file_bytes(request.options.limits), request.shards_pattern, group,
+  HullInput input(request.points_path, request.columns, kept_file_bytes(request.options.limits),
+                  request.shards_pattern, group,
                   [&] { check_outputs_are_writable(outputs, inputs_of(request)); });
   ReportContext context{.input_path = request.shards_pattern + request.points_path,
                         .options = request.options,

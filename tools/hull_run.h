@@ -9,12 +9,14 @@
 #include "approx/hull.h"
 #include "approx/verify.h"
 #include "approx/written_planes.h"
+#include "tools/column_choice.h"
 
 namespace ndhull {
 
 /// The command line of `ndhull hull`. Paths are empty when the output is not wanted; "-" is standard output.
 struct HullRequest {
   std::string points_path;
+  ColumnChoice columns;        ///< of points_path
   std::string shards_pattern;  ///< instead: of files, shared out among the processes that mpirun started
   HullOptions options;
   SelectionOptions selection;

@@ -92,6 +92,7 @@ void add_largest_command(CLI::App& app, int& exit_code) {
       ->type_name("")
       ->check(path_name())
       ->required();
+  add_columns_option(*command, arguments->request.columns);
   add_search_options(*command, *arguments);
   add_output_options(*command, *arguments);
   command->footer(

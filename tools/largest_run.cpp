@@ -36,10 +36,11 @@ std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
 }
 
 std::vector<std::pair<std::string, OptionValue>> program_options(const LargestRequest& request) {
-  return {{"planes", path_or_null(request.planes_path)},
+  return {{"columns", text_or_null(request.columns.list())},
+          {"planes", text_or_null(request.planes_path)},
           {"plane_kind", std::string(to_string(request.plane_kind))},
-          {"vertices", path_or_null(request.vertices_path)},
-          {"report", path_or_null(request.report_path)},
+          {"vertices", text_or_null(request.vertices_path)},
+          {"report", text_or_null(request.report_path)},
           {"facet_list", request.facet_list},
           {"verify", request.verify},
           {"progress", request.progress},
@@ -101,7 +102,7 @@ int run_largest(const LargestRequest& request) {
   ProgressLine progress(request.progress, request.quiet);
 
   progress.show_phase("read");
-  const PointFile points = read_points(request.points_path);
+  const PointFile points = read_points(request.points_path, request.columns);
   check_outputs_are_writable(outputs, {request.points_path});
   LargestReportContext context{.input_path = request.points_path,
                                .options = request.options,

@@ -6,6 +6,7 @@
 #include "approx/largest_facets.h"
 #include "approx/largest_report.h"
 #include "approx/written_planes.h"
+#include "tools/column_choice.h"
 
 namespace ndhull {
 
@@ -13,6 +14,7 @@ namespace ndhull {
 /// output.
 struct LargestRequest {
   std::string points_path;
+  ColumnChoice columns;
   LargestOptions options;
   std::string planes_path;
   PlaneKind plane_kind = PlaneKind::kOuter;

@@ -66,6 +66,6 @@ void check_outputs_are_writable(const std::vector<NamedOutput>& outputs,
   }
 }
 
-OptionValue path_or_null(const std::string& path) { return path.empty() ? OptionValue() : OptionValue(path); }
+OptionValue text_or_null(const std::string& text) { return text.empty() ? OptionValue() : OptionValue(text); }
 
 }  // namespace ndhull

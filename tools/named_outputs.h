@@ -24,7 +24,7 @@ void check_outputs_differ(const std::vector<NamedOutput>& outputs);
 void check_outputs_are_writable(const std::vector<NamedOutput>& outputs,
                                 const std::vector<std::string>& inputs);
 
-/// A path as it is reported: null when the output is not wanted.
-OptionValue path_or_null(const std::string& path);
+/// A path or a list as it is reported: null when it is empty, as it is where the option is not given.
+OptionValue text_or_null(const std::string& text);
 
 }  // namespace ndhull

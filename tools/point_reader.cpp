@@ -52,6 +52,27 @@ NumberTable read_cdd_points(const TextSource& source, const std::string& extensi
   return std::move(table);
 }
 
+bool is_table_name(const std::string& extension) { return extension == "csv" || extension == "tsv"; }
+
+/// Does this text, neither cdd's nor binary, begin with Qhull's dimension and count?
+bool is_qhull_text(const TextSource& source, const std::string& extension) {
+  return !is_table_name(extension) && looks_like_qhull_text(source);
+}
+
+/// These columns of points that were read as a whole.
+PointFile choose(PointFile points, const ColumnChoice& columns) {
+  if (columns.is_all()) return points;
+  const PointView view = points.view();
+  const std::vector<std::size_t> chosen = columns.resolve(points.column_names, view.dimension, points.path);
+  NumberTable table;
+  table.rows = view.rows;
+  table.columns = chosen.size();
+  table.values.reserve(table.rows * table.columns);
+  for (std::size_t row = 0; row < view.rows; ++row)
+    for (const std::size_t column : chosen) table.values.push_back(view.at(row, column));
+  return {points.path, std::move(table)};
+}
+
 /// What a binary file is, by its first bytes; null for text.
 const char* binary_kind(std::string_view bytes) {
   const auto begins = [bytes](std::string_view magic) { return bytes.starts_with(magic); };
@@ -91,24 +112,33 @@ TextSource text_source_of(const FileBytes& bytes, const std::string& name) {
 
 NumberTable read_number_text(const TextSource& source, const std::string& extension) {
   source.require_content();
-  const bool is_table = extension == "csv" || extension == "tsv";
-  return !is_table && looks_like_qhull_text(source) ? read_qhull_text(source) : read_table(source);
+  return is_qhull_text(source, extension) ? read_qhull_text(source) : read_table(source);
 }
 
-PointFile read_points(const std::string& path, std::size_t kept_bytes) {
-  return parse_points(FileBytes::read(path), path, kept_bytes);
+PointFile read_points(const std::string& path, const ColumnChoice& columns, std::size_t kept_bytes) {
+  FileBytes bytes = FileBytes::read(path);
+  try {
+    return parse_points(std::move(bytes), path, columns, kept_bytes);
+  } catch (const Error& error) {
+    const bool may_be_names = error.code() == ErrorCode::kBadNumber || error.code() == ErrorCode::kBadHeader;
+    if (!may_be_names || !columns.is_all() || !is_table_name(extension_of(path))) throw;
+    throw Error(error.code(),
+                fmt::format("{}; or say with --columns which columns are coordinates", error.what()));
+  }
 }
 
-PointFile parse_points(FileBytes bytes, const std::string& path, std::size_t kept_bytes) {
+PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns,
+                       std::size_t kept_bytes) {
   const std::string name = display_name(path);
   const std::string extension = extension_of(path);
-  if (extension == "npy" || looks_like_npy(bytes.view())) return read_npy(std::move(bytes), name, kept_bytes);
+  if (extension == "npy" || looks_like_npy(bytes.view()))
+    return choose(read_npy(std::move(bytes), name, kept_bytes), columns);
   const TextSource source = text_source_of(bytes, name);
   source.require_content();
-  if (extension == "ext" || extension == "ine" || looks_like_cdd(source)) {
-    return {name, read_cdd_points(source, extension)};
-  }
-  return {name, read_number_text(source, extension)};
+  if (extension == "ext" || extension == "ine" || looks_like_cdd(source))
+    return choose({name, read_cdd_points(source, extension)}, columns);
+  if (is_qhull_text(source, extension)) return choose({name, read_qhull_text(source)}, columns);
+  return {name, read_table(source, columns)};
 }
 
 }  // namespace ndhull

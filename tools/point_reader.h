@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/points.h"
+#include "tools/column_choice.h"
 #include "tools/file_bytes.h"
 #include "tools/text_source.h"
 
@@ -45,14 +46,18 @@ inline constexpr std::size_t kKeptFileBytes = std::size_t{1} << 26;
 /// Formats   .npy (float32 and float64 in place, C or Fortran order; integers and float16 become
 ///           float64), .ext (V-representation of cdd and lrs), .csv, .tsv (tables). Any other name, and
 ///           "-" for standard input: told by content, Qhull text included.
+/// Columns   `columns` says which are coordinates, and in which order. In a table others may hold anything.
 /// Throws    Error with the name, line and column or element, what was found, what was expected and a
 ///           remedy: kFileMissing, kEmptyInput, kBadHeader, kBadNumber, kNotFinite, kRaggedRow,
-///           kWrongCount, kTruncated, kUnknownType, kDimensionTooLow.
-/// Cost      text: 8 bytes a number and about 50 ns; .npy: one pass that looks for NaN and infinity.
-PointFile read_points(const std::string& path, std::size_t kept_bytes = kKeptFileBytes);
+///           kWrongCount, kTruncated, kUnknownType, kDimensionTooLow; kUsage for columns it does not have.
+/// Cost      text: 8 bytes a number and about 50 ns; .npy: one pass that looks for NaN and infinity, and a
+///           copy as float64 of chosen columns.
+PointFile read_points(const std::string& path, const ColumnChoice& columns = {},
+                      std::size_t kept_bytes = kKeptFileBytes);
 
 /// The same for bytes at hand; `path` tells the extension and the name in messages.
-PointFile parse_points(FileBytes bytes, const std::string& path, std::size_t kept_bytes = kKeptFileBytes);
+PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns = {},
+                       std::size_t kept_bytes = kKeptFileBytes);
 
 /// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
 NumberTable read_number_text(const TextSource& source, const std::string& extension);

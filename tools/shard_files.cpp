@@ -56,7 +56,8 @@ ShardFiles::ShardFiles(const std::string& pattern, const ProcessGroup* group,
     const std::size_t rank = group == nullptr ? 0 : group->rank(),
                       size = group == nullptr ? 1 : group->size();
     for (std::size_t file = names.size() * rank / size; file < names.size() * (rank + 1) / size; ++file)
-      files_.push_back(read_points(names[file], 0));  // many small files can be much
+      files_.push_back(
+          parse_points(FileBytes::read(names[file]), names[file], {}, 0));  // many small files can be much
     if (rank == 0) check();
   } catch (const Error& found) {
     error = found;

@@ -12,12 +12,13 @@
 
 namespace ndhull {
 
-PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads) {
+PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads,
+                        const ColumnChoice& columns) {
   if (points_path == "-" && planes_path == "-") {
     throw Error(ErrorCode::kUsage,
                 "verify: found - for both, expected one of them in a file: standard input is read once");
   }
-  const PointFile points = read_points(points_path);
+  const PointFile points = read_points(points_path, columns);
   const HalfspaceFile planes = read_halfspaces(planes_path);
   if (planes.dimension != points.view().dimension) {
     throw Error(
@@ -40,6 +41,7 @@ std::string describe(const PlaneCheck& check) {
 void add_verify_command(CLI::App& app, int& exit_code) {
   struct Arguments {
     std::string points, planes;
+    ColumnChoice columns;
     unsigned threads = 0;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -53,6 +55,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->type_name("")
       ->check(path_name())
       ->required();
+  add_columns_option(*command, arguments->columns);
   command
       ->add_option("--threads", arguments->threads,
                    "0, the default: all cores; the result is the same for any number")
@@ -62,7 +65,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "Numbers are taken as the doubles they are read to; a point on a plane is not above it.\n"
       "Example: ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy");
   command->callback([arguments, &exit_code] {
-    const PlaneCheck check = verify_files(arguments->points, arguments->planes, arguments->threads);
+    const PlaneCheck check =
+        verify_files(arguments->points, arguments->planes, arguments->threads, arguments->columns);
     write_text("-", describe(check));
     exit_code = check.above == 0 ? 0 : 2;
   });

@@ -5,13 +5,15 @@
 #include <string>
 
 #include "approx/plane_check.h"
+#include "tools/column_choice.h"
 
 namespace ndhull {
 
 /// Reads both files and tests every point against every plane; see check_planes.
 /// Throws   Error as read_points and read_halfspaces do; kUsage when their dimensions differ, or both are
 /// "-".
-PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads);
+PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads,
+                        const ColumnChoice& columns = {});
 
 /// The two lines the command prints: the worst point, plane and distance, and how many pairs are above.
 std::string describe(const PlaneCheck& check);

@@ -27,6 +27,7 @@ namespace {
 struct ViewArguments {
   HullOptionSet hull;
   std::string source_path, output_path;
+  ColumnChoice columns;
   std::optional<std::string> axes, names;
   bool principal = false, section = false, shadow = false;
   std::size_t highlight = ViewWish{}.highlight;
@@ -90,10 +91,15 @@ ViewWish wish_of(const ViewArguments& arguments, const ViewedHull& viewed) {
 /// The hull to draw; sets the exit code to that of an interrupted run when it was one.
 ViewedHull load(const ViewArguments& arguments, int& exit_code) {
   FileBytes bytes = FileBytes::read(arguments.source_path);
-  if (is_report(bytes, arguments.source_path)) return read_report(bytes, arguments.source_path);
+  if (is_report(bytes, arguments.source_path)) {
+    if (arguments.columns.is_all()) return read_report(bytes, arguments.source_path);
+    throw Error(ErrorCode::kUsage, fmt::format("--columns: found a report, {}, which names its columns, "
+                                               "expected points; leave the option out",
+                                               display_name(arguments.source_path)));
+  }
   Interrupt interrupt;
   ProgressLine progress(false, false);  // on a terminal only
-  PointFile points = parse_points(std::move(bytes), arguments.source_path);
+  PointFile points = parse_points(std::move(bytes), arguments.source_path, arguments.columns);
   HullOptions options = arguments.hull.complete();
   options.stop = interrupt.token();
   options.limits.machine_memory_bytes = memory_of_machine();
@@ -154,6 +160,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->type_name("")
       ->check(path_name())
       ->required();
+  add_columns_option(*command, arguments->columns);
   add_picture_options(*command, *arguments);
   arguments->hull.add_to(*command);
   command->footer(

@@ -73,7 +73,16 @@ class CubeLength {
   std::vector<std::vector<double>> across_;  // orthonormal
 };
 
-PointFile read_points_of_report(const std::string& path, const std::string& report_path) {
+/// What the report was written with. Throws what the JSON library does.
+ColumnChoice columns_of_report(const nlohmann::json& report) {
+  const nlohmann::json& options = report.at("options");
+  const auto columns = options.find("columns");
+  if (columns == options.end() || columns->is_null()) return {};
+  return ColumnChoice(columns->get<std::string>());
+}
+
+PointFile read_points_of_report(const std::string& path, const ColumnChoice& columns,
+                                const std::string& report_path) {
   if (path == "-") {
     throw Error(ErrorCode::kUsage,
                 fmt::format("{}: found points from standard input, expected input.path to name a file; write "
@@ -84,7 +93,7 @@ PointFile read_points_of_report(const std::string& path, const std::string& repo
   std::error_code ignored;
   const bool is_beside = !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside, ignored);
   try {
-    return read_points(is_beside ? beside.string() : path);
+    return read_points(is_beside ? beside.string() : path, columns);
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("the points of {}: {}", display_name(report_path), error.what()));
   }
@@ -150,7 +159,7 @@ ViewedHull read_fields(const nlohmann::json& report, const std::string& path) {
   }
   const auto points_path = input.at("path").get<std::string>();
   ViewedHull viewed;
-  viewed.points = read_points_of_report(points_path, path);
+  viewed.points = read_points_of_report(points_path, columns_of_report(report), path);
   check_points_are_those(input, viewed.points, path);
   viewed.points_name = file_name_of(points_path);
   viewed.rank = input.at("rank").get<std::size_t>();

@@ -20,13 +20,13 @@ constexpr const char* kPaths[] = {"input", "input.csv", "input.tsv", "input.npy"
 
 void check_message(const ndhull::Error& error) {
   const std::string_view message = error.what();
-  NDHULL_CHECK(message.starts_with("input"));
+  NDHULL_CHECK(message.starts_with("input") || message.starts_with("--columns"));
   NDHULL_CHECK(message.find('\n') == std::string_view::npos);
 }
 
-void try_points(std::string_view content, const char* path) {
+void try_points(std::string_view content, const char* path, const ndhull::ColumnChoice& columns) {
   try {
-    const ndhull::PointFile file = ndhull::parse_points(ndhull::FileBytes::copy_of(content), path);
+    const ndhull::PointFile file = ndhull::parse_points(ndhull::FileBytes::copy_of(content), path, columns);
     const ndhull::PointView points = file.view();
     NDHULL_CHECK(points.rows > 0 && points.dimension > 0);
     for (std::size_t row = 0; row < points.rows; ++row) {
@@ -56,7 +56,8 @@ void try_halfspaces(std::string_view content, const char* path) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   for (const char* path : kPaths) {
-    try_points(content, path);
+    try_points(content, path, {});
+    try_points(content, path, ndhull::ColumnChoice("2,1"));
     try_halfspaces(content, path);
   }
   return 0;

@@ -48,8 +48,9 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-inline PointFile parse(std::string_view content, const std::string& path = "points.txt") {
-  return parse_points(FileBytes::copy_of(content), path);
+inline PointFile parse(std::string_view content, const std::string& path = "points.txt",
+                       const ColumnChoice& columns = {}) {
+  return parse_points(FileBytes::copy_of(content), path, columns);
 }
 
 /// All coordinates, row after row.
