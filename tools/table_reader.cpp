@@ -159,17 +159,6 @@ std::size_t read_chosen(const FieldLine& line, const char* place, std::span<cons
   return count;
 }
 
-void check_names(const TextSource& source, const char* place, const std::vector<std::string>& names,
-                 const ColumnChoice& choice) {
-  for (std::size_t column = 0; column < names.size(); ++column) {
-    if (!names[column].empty()) continue;
-    source.fail(
-        ErrorCode::kBadHeader, place,
-        fmt::format("column {}: found no name in the header, expected one; name the column{}", column + 1,
-                    choice.is_all() ? ", or write the table without its index column" : ""));
-  }
-}
-
 /// What the first line settles for all.
 struct TableLayout {
   char separator = kBlanks;
@@ -184,6 +173,14 @@ std::size_t count_fields(const FieldLine& line, const char* place) {
   std::size_t count = 0;
   for (const char* at = line.skip(place); at != nullptr; at = line.next_field(skip_field(line, at))) ++count;
   return count;
+}
+
+[[noreturn]] void fail_without_name(const TextSource& source, const char* line, std::size_t column,
+                                    const ColumnChoice& choice) {
+  source.fail(
+      ErrorCode::kBadHeader, line,
+      fmt::format("column {}: found no name in the header, expected one; name the column{}", column + 1,
+                  choice.is_all() ? ", or write the table without its index column" : ""));
 }
 
 TableLayout read_first_line(const TextSource& source, const char* line, const char* end,
@@ -205,15 +202,13 @@ TableLayout read_first_line(const TextSource& source, const char* line, const ch
     layout.places.assign(layout.columns, kLeftOut);
     for (std::size_t place = 0; place < layout.chosen.size(); ++place)
       layout.places[layout.chosen[place]] = place;
-    // A column that is left out needs no name.
-    for (std::size_t column = 0; column < fields.size(); ++column)
-      if (layout.places[column] == kLeftOut) fields[column] = "left out";
   }
-  check_names(source, line, fields, choice);
-  if (choice.is_all()) {
-    layout.names = std::move(fields);
-  } else if (layout.has_header) {
-    for (const std::size_t column : layout.chosen) layout.names.push_back(std::move(fields[column]));
+  if (!layout.has_header) return layout;
+  const std::size_t read = choice.is_all() ? fields.size() : layout.chosen.size();
+  for (std::size_t place = 0; place < read; ++place) {
+    const std::size_t column = choice.is_all() ? place : layout.chosen[place];
+    if (fields[column].empty()) fail_without_name(source, line, column, choice);
+    layout.names.push_back(std::move(fields[column]));
   }
   return layout;
 }
