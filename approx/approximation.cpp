@@ -6,6 +6,8 @@
 #include "approx/boundedness.h"
 #include "approx/cluster_merge.h"
 #include "approx/merge_rule.h"
+#include "approx/segment_merge.h"
+#include "approx/slab_partition.h"
 #include "core/ids.h"
 
 namespace ndhull {
@@ -27,6 +29,10 @@ constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
 /// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
 /// few simplices each: there many fit, and large slabs leave hardly any.
 constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 40;
+/// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
+constexpr std::size_t kPartOfMean = 4;
+/// So many facets of which none is wider than the hull is high everywhere bound a region.
+constexpr std::size_t kSurelyBounded = 1000;
 /// Rounds of smaller slabs and more growth before the best so far is taken.
 constexpr int kRounds = 24;
 
@@ -232,7 +238,7 @@ Offenders Approximation::add_offenders(const Covering& covering, const TrueWidth
 /// the hull is high everywhere, that is certain.
 bool Approximation::keeps_hull(const Covering& covering) const {
   if (covering.planes.size() <= space_->rank()) return false;
-  if (covering.planes.size() > 1000) return true;
+  if (covering.planes.size() > kSurelyBounded) return true;
   std::vector<double> normals;
   for (const FittedPlane& plane : covering.planes)
     normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
@@ -253,25 +259,56 @@ void Approximation::join_neighbours(Covering& covering, double width) const {
   if (keeps_hull(joined)) covering = std::move(joined);
 }
 
+/// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
+/// overlapping ones are better.
+std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) const {
+  const SimplicialComplex& complex = growth_.work().complex;
+  const double* coordinates = growth_.coordinates();
+  const PointsAbove above = !growth_.work().shifted_points.empty() ? PointsAbove::kAny
+                            : is_convex()                          ? PointsAbove::kNoPoint
+                                                                   : PointsAbove::kLeftOut;
+  std::optional<DualFacets> facets =
+      partition_into_slabs(complex, *space_, coordinates, factor_, above, width);
+  if (!facets) return std::nullopt;
+  PlaneTops tops(*space_, above);
+  const std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
+  join_along_segments(complex, coordinates, factor_, space_->point_count(), tops, width, most, *facets);
+  return facets;
+}
+
+/// Is nothing left to be looked at? All points were seen, and no simplex was too wide alone; facets are many,
+/// so that they bound a region and hardly any two would fit into one slab.
+bool Approximation::is_final(const DualFacets& facets) const {
+  return facets.all_fit && growth_.left_out().size() <= kFewLeftOut && facets.count() > kSurelyBounded &&
+         !is_worth_joining(facets.count(), facets.members.size());
+}
+
 /// No planes: not even slabs as thin as rounding leave a hull.
-Covering Approximation::cover_width(double width, const CoverEffort& effort) {
-  SlabCover cover(growth_.work().complex, *space_, is_convex());
-  Covering covering = cover.cover(width, effort);
-  hull_.chosen.refused_merges += close_open_directions(growth_.work().complex, *space_, covering);
+Covering Approximation::cover_width(double width, std::optional<DualFacets> slabs) {
+  const SimplicialComplex& complex = growth_.work().complex;
+  const std::size_t live = complex.row_count - growth_.work().free_count;
+  std::optional<SlabCover> overlapping;
+  const auto cover = [&] {
+    if (slabs) return covering_of(*slabs, *space_);
+    if (!overlapping) overlapping.emplace(complex, *space_, is_convex());
+    return overlapping->cover(width, CoverEffort{.final_fit_steps = 0});
+  };
+  Covering covering = cover();
+  hull_.chosen.refused_merges += close_open_directions(complex, *space_, covering);
   while (!keeps_hull(covering)) {
     if (width < thinnest()) return Covering{};
     width *= 0.75;
     ++hull_.chosen.refused_merges;
-    covering = cover.cover(width, effort);
-    if (covering.planes.size() == cover.live_count()) break;
+    slabs = find_disjoint_slabs(width);
+    covering = cover();
+    if (covering.planes.size() == live) break;
   }
   hull_.chosen.slab_width = width;
-  if (is_worth_joining(covering.planes.size(), cover.live_count())) join_neighbours(covering, width);
+  if (is_worth_joining(covering.planes.size(), live)) join_neighbours(covering, width);
   return covering;
 }
 
 FacetClusters Approximation::run_width() {
-  const CoverEffort effort{.final_fit_steps = 0};
   const double target = lengths_.width * (1.0 - 1e-9);
   double outside_width =
       lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
@@ -283,7 +320,13 @@ FacetClusters Approximation::run_width() {
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
-    covering = cover_width(slab, effort);
+    std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
+    if (slabs && is_final(*slabs)) {
+      hull_.chosen.outside_width = outside_width;
+      hull_.chosen.slab_width = slab;
+      return clusters_of(*slabs);
+    }
+    covering = cover_width(slab, std::move(slabs));
     if (covering.planes.empty()) return FacetClusters{};
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();

@@ -8,6 +8,7 @@
 
 #include "approx/accuracy.h"
 #include "approx/certified_growth.h"
+#include "approx/dual_facets.h"
 #include "approx/facet_layout.h"
 #include "approx/hull.h"
 #include "approx/slab_cover.h"
@@ -52,7 +53,9 @@ class Approximation {
   void make_space(bool with_left_out);
   bool is_worth_joining(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
-  Covering cover_width(double width, const CoverEffort& effort);
+  std::optional<DualFacets> find_disjoint_slabs(double width) const;
+  bool is_final(const DualFacets& facets) const;
+  Covering cover_width(double width, std::optional<DualFacets> slabs);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet

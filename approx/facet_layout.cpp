@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "approx/gradient_length.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
 
@@ -36,7 +37,7 @@ struct RowKinds {
   std::array<std::size_t, kKinds> count{};
 };
 
-/// Looks at the neighbours of whatever is less, what is merged or what is not.
+/// Looks at the neighbours of what is merged, where that is less than half.
 RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clusters) {
   const auto count = static_cast<std::uint32_t>(complex.row_count);
   RowKinds kinds;
@@ -47,16 +48,18 @@ RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clust
     kinds.count[kMerged] += is_merged ? 1u : 0u;
   }
   const std::size_t alone = count - kinds.count[kMerged];
-  const bool asks_merged = kinds.count[kMerged] < alone;
-  if (alone > 0) {
-    for (std::uint32_t row = 0; row < count; ++row) {
-      if ((kinds.of_row[row] == kMerged) != asks_merged) continue;
-      for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
-        if ((kinds.of_row[neighbour.value] == kMerged) == asks_merged) continue;
-        Kind& kind = kinds.of_row[asks_merged ? neighbour.value : row];
-        kinds.count[kBeside] += kind == kRegular ? 1u : 0u;
-        kind = kBeside;
-      }
+  if (kinds.count[kMerged] >= alone) {  // hardly any is beside none
+    std::ranges::replace(kinds.of_row, kRegular, kBeside);
+    kinds.count[kBeside] = alone;
+    return kinds;
+  }
+  for (std::uint32_t row = 0; row < count; ++row) {
+    if (kinds.of_row[row] != kMerged) continue;
+    for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
+      Kind& kind = kinds.of_row[neighbour.value];
+      if (kind != kRegular) continue;
+      ++kinds.count[kBeside];
+      kind = kBeside;
     }
   }
   kinds.count[kRegular] = alone - kinds.count[kBeside];
@@ -122,25 +125,6 @@ void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places,
   }
 }
 
-/// |R a|, R given by its columns: the sums of all rows side by side.
-template <std::size_t D>
-double gradient_length(const std::array<double, D * D>& columns, const double* plane) {
-  std::array<double, D> sums{};
-  for (std::size_t k = 0; k < D; ++k)
-    for (std::size_t i = 0; i < D; ++i) sums[i] += columns[k * D + i] * plane[k];
-  double length_sq = 0.0;
-  for (const double entry : sums) length_sq += entry * entry;
-  return std::sqrt(length_sq);
-}
-
-/// The same where all other entries of R are 0, as those of frames that only scale.
-template <std::size_t D>
-double scaled_length(const std::array<double, D>& diagonal, const double* plane) {
-  double length_sq = 0.0;
-  for (std::size_t k = 0; k < D; ++k) length_sq += diagonal[k] * plane[k] * (diagonal[k] * plane[k]);
-  return std::sqrt(length_sq);
-}
-
 /// Sums over the simplices of each merged facet: determinants, those times the planes, and areas.
 struct MergedSums {
   std::vector<double> determinants, area_vectors, surface;
@@ -151,25 +135,14 @@ template <std::size_t D>
 void sum_rows(const SimplicialComplex& complex, std::span<const double> determinants,
               const FacetClusters& clusters, const ClusterPlaces& places, std::span<const double> factor,
               MergedSums& sums) {
-  std::array<double, D * D> columns;
-  std::array<double, D> diagonal;
-  bool is_diagonal = true;
-  for (std::size_t k = 0; k < D; ++k) {
-    for (std::size_t i = 0; i < D; ++i) {
-      columns[k * D + i] = factor[i * D + k];
-      if (i != k && factor[i * D + k] != 0.0) is_diagonal = false;
-    }
-    diagonal[k] = factor[k * D + k];
-  }
+  const GradientLength<D> length_of(factor);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     if (clusters.cluster_of[row] == kNone) continue;
     const std::size_t m = places.place_of[clusters.cluster_of[row]];
     const double* plane = complex.plane(SimplexId{row}).data();
     double* area_vector = sums.area_vectors.data() + m * D;
     for (std::size_t k = 0; k < D; ++k) area_vector[k] += determinants[row] * plane[k];
-    const double length =
-        is_diagonal ? scaled_length<D>(diagonal, plane) : gradient_length<D>(columns, plane);
-    sums.surface[m] += determinants[row] * length;
+    sums.surface[m] += determinants[row] * length_of(plane);
     sums.determinants[m] += determinants[row];
   }
 }

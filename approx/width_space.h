@@ -26,6 +26,8 @@ class WidthSpace {
 
   std::size_t rank() const { return rank_; }
   std::size_t vertex_count() const { return vertex_count_; }
+  /// Of the input, of which some are in the space.
+  std::size_t point_count() const { return row_of_point_.size(); }
   const SupportTable& table() const { return table_; }
   const double* row(std::uint32_t row) const { return rows_.data() + std::size_t{row} * rank_; }
   PointId point_of(std::uint32_t row) const { return point_of_row_[row]; }

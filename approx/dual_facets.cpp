@@ -1,0 +1,98 @@
+#include "approx/dual_facets.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+
+#include "core/blocks.h"
+#include "core/ids.h"
+
+namespace ndhull {
+
+double PlaneTops::of_simplex(const double* plane, double length) {
+  if (above_ == PointsAbove::kNoPoint) return 1.0;
+  constexpr std::size_t kFew = 4;  // a part of all: the product with all of them is quicker for each
+  space_.normal_of({plane, space_.rank()}, normal_.data());
+  double height = 1.0 / length, furthest = 0.0;  // n.z = a.y / |R a|
+  const std::size_t left_out = space_.table().count() - space_.vertex_count();
+  if (above_ == PointsAbove::kLeftOut && kFew * left_out <= space_.table().count()) {
+    furthest = height_of_left_out();
+  } else if (space_.is_large()) {
+    furthest = space_.furthest(normal_, height).dot;
+  } else {
+    space_.table().find(normal_.data(), work_.products, furthest);
+  }
+  return std::max(height, furthest) * length;
+}
+
+double PlaneTops::height_of_left_out() const {
+  double height = -HUGE_VAL;
+  for (std::size_t row = space_.vertex_count(); row < space_.table().count(); ++row) {
+    const double* z = space_.row(static_cast<std::uint32_t>(row));
+    double dot = 0.0;
+    for (std::size_t k = 0; k < normal_.size(); ++k) dot += normal_[k] * z[k];
+    height = std::max(height, dot);
+  }
+  return height;
+}
+
+Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
+  constexpr std::size_t kFacetsAtATime = 64;
+  const SimplicialComplex& complex = *facets.complex;
+  Covering covering;
+  covering.facet_of.resize(complex.row_count);
+  std::transform(facets.simplices.data(), facets.simplices.data() + complex.row_count,
+                 covering.facet_of.begin(), [](const SimplexPlace& simplex) { return simplex.facet; });
+  covering.planes.resize(facets.count());
+  struct MeasureScratch {
+    PlaneFitWork work;
+    std::vector<std::uint32_t> vertices, last_facet;  // per row of the space: that met it
+  };
+  tbb::enumerable_thread_specific<MeasureScratch> scratch_of_thread([&] {
+    return MeasureScratch{{}, {}, std::vector<std::uint32_t>(space.table().count(), kNone)};
+  });
+  for_each_block(facets.count(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    MeasureScratch& scratch = scratch_of_thread.local();
+    for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+      std::vector<double> normal(complex.rank);
+      space.normal_of(facets.plane(facet), normal.data());
+      FittedPlane& plane = covering.planes[facet];
+      if (facets.size(facet) == 1 && facets.own_plane[facet] == kNone) {
+        plane.normal = std::move(normal);
+        continue;
+      }
+      scratch.vertices.clear();
+      for (const std::uint32_t simplex : facets.members_of(facet)) {
+        for (const PointId id : complex.vertices(SimplexId{simplex})) {
+          const std::uint32_t row = space.row_of(id);
+          if (scratch.last_facet[row] == facet) continue;
+          scratch.last_facet[row] = facet;
+          scratch.vertices.push_back(row);
+        }
+      }
+      plane = measure_plane(space, normal, scratch.vertices, scratch.work);
+    }
+  });
+  for (const FittedPlane& plane : covering.planes) covering.widest = std::max(covering.widest, plane.width());
+  return covering;
+}
+
+FacetClusters clusters_of(const DualFacets& facets) {
+  FacetClusters clusters;
+  std::vector<std::uint32_t> cluster(facets.count(), kNone);
+  for (std::size_t facet = 0; facet < facets.count(); ++facet)
+    if (facets.size(facet) > 1 || facets.own_plane[facet] != kNone) cluster[facet] = clusters.count++;
+  const std::size_t rank = facets.complex->rank, rows = facets.complex->row_count;
+  clusters.planes.resize(clusters.count * rank);
+  for (std::size_t facet = 0; facet < facets.count(); ++facet) {
+    if (cluster[facet] == kNone) continue;
+    std::ranges::copy(facets.plane(facet), clusters.planes.data() + cluster[facet] * rank);
+  }
+  clusters.cluster_of.resize(rows);
+  std::transform(
+      facets.simplices.data(), facets.simplices.data() + rows, clusters.cluster_of.begin(),
+      [&](const SimplexPlace& simplex) { return simplex.facet == kNone ? kNone : cluster[simplex.facet]; });
+  return clusters;
+}
+
+}  // namespace ndhull

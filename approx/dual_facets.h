@@ -1,0 +1,98 @@
+// Facets as disjoint connected sets of simplices, each with a plane that all its vertices are less than a
+// width below. Planes are dual vertices in the frame, so that any plane between two of them is known without
+// a look at the points: what a.y is at most is convex in a.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "approx/covering.h"
+#include "approx/facet_layout.h"
+#include "approx/plane_fit.h"
+#include "approx/width_space.h"
+#include "core/huge_array.h"
+#include "core/ids.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// What a walk over neighbours has to know of a simplex.
+struct SimplexPlace {
+  std::uint32_t facet = 0;  ///< kNone: in none yet, or a free row
+  std::uint32_t mix =
+      0;  ///< XOR of its vertices (PointIds): two neighbours' differ by the vertices across the ridge
+};
+
+/// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
+struct DualFacets {
+  const SimplicialComplex* complex = nullptr;
+  HugeArray<SimplexPlace> simplices;   ///< per row of the complex
+  std::vector<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
+  std::vector<std::uint32_t> begin;    ///< of each facet in `members`, and the end
+  /// Of facets of several simplices the different vertices, facet by facet; of others none.
+  std::vector<PointId> vertices;
+  std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end; empty: not listed
+  std::vector<std::uint32_t> own_plane;     ///< per facet: which of own_planes; kNone: its seed's
+  std::vector<double> own_planes;           ///< planes x rank
+  std::vector<double> tops;    ///< per facet: largest a.y of a point of the space; 0: was not needed
+  std::vector<float> lengths;  ///< per facet: |R a|, one over the plane's distance from the centre
+  bool all_fit = true;         ///< no simplex that is a facet alone is thicker than the width
+
+  std::size_t count() const { return tops.size(); }
+  std::uint32_t seed(std::size_t facet) const { return members[begin[facet]]; }
+  std::size_t size(std::size_t facet) const { return begin[facet + 1] - begin[facet]; }
+  std::span<const std::uint32_t> members_of(std::size_t facet) const {
+    return {members.data() + begin[facet], size(facet)};
+  }
+  std::span<const double> plane(std::size_t facet) const {
+    if (own_plane[facet] == kNone) return complex->plane(SimplexId{seed(facet)});
+    return {own_planes.data() + own_plane[facet] * complex->rank, complex->rank};
+  }
+};
+
+/// plane . y as four sums that are made side by side: one after the other, each addition would wait for the
+/// last.
+template <std::size_t D>
+double dot_in_frame(const double* plane, const double* y) {
+  std::array<double, 4> sums{};
+  for (std::size_t k = 0; k < D; ++k) sums[k % 4] += plane[k] * y[k];
+  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+}
+
+/// What is above a simplex' plane.
+enum class PointsAbove {
+  kNoPoint,  ///< none of the space by more than rounding
+  kLeftOut,  ///< points that are no vertices, perhaps
+  kAny,      ///< vertices too: their shifts, and what rounding has made of the planes
+};
+
+/// The largest a.y of any point of the space.
+class PlaneTops {
+ public:
+  PlaneTops(const WidthSpace& space, PointsAbove above)
+      : space_(space), above_(above), normal_(space.rank()) {}
+
+  /// Of a simplex' own plane. Cost  nothing where no points are above, else a product of a direction with all
+  /// that may be.
+  double of_simplex(const double* plane, double length);
+
+ private:
+  double height_of_left_out() const;
+
+  const WidthSpace& space_;
+  PointsAbove above_;
+  std::vector<double> normal_;
+  PlaneFitWork work_;
+};
+
+/// The same facets with planes measured over all points of the space.
+/// Cost  for each facet of several simplices a product of a direction with all points.
+Covering covering_of(const DualFacets& facets, const WidthSpace& space);
+
+/// The same facets as they are put in order: only the directions of their planes count then.
+FacetClusters clusters_of(const DualFacets& facets);
+
+}  // namespace ndhull

@@ -1,0 +1,291 @@
+// Idea. Let no point be above the planes a and b, that is, a.y <= s and b.y <= t for all points y. Then of a
+// plane (1 - u) a + u b, 0 <= u <= 1, no point is above (1 - u) s + u t, and how deep a vertex lies below
+// that is linear in u. So two facets fit into one slab of width T when an interval of u is left by all their
+// vertices: each takes off one end, and no other point is looked at. The slab's width is measured with |R a|,
+// which is convex: the mean of both lengths gives the interval, the length itself decides in the end. Where a
+// is the dual vertex of a simplex and b that of its neighbour, the segment is an edge of the dual polytope,
+// and all its planes pass through their ridge.
+#include "approx/segment_merge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "approx/gradient_length.h"
+#include "core/dimension_switch.h"
+#include "core/ids.h"
+
+namespace ndhull {
+namespace {
+
+/// Neighbours are looked at whose vertex across a ridge is less than this part of the width below the slab.
+constexpr double kReach = 1.0;
+
+/// Where on the segment a slab may be, and how wide it is there.
+struct Fit {
+  double place = 0.0, width = 0.0;
+};
+
+/// The places u on the segment at which all vertices so far are in the slab.
+class Interval {
+ public:
+  /// By how much a vertex is too deep at u = 0 and at u = 1.
+  void take(double excess_first, double excess_last) {
+    if (excess_first > 0.0) {
+      begin_ = std::max(begin_, excess_last < 0.0 ? excess_first / (excess_first - excess_last) : 2.0);
+    } else if (excess_last > 0.0) {
+      end_ = std::min(end_, -excess_first / (excess_last - excess_first));
+    }
+  }
+  bool is_empty() const { return begin_ > end_; }
+  double middle() const { return 0.5 * (begin_ + end_); }
+
+ private:
+  double begin_ = 0.0, end_ = 1.0;
+};
+
+template <std::size_t D>
+class SegmentMerger {
+ public:
+  SegmentMerger(const SimplicialComplex& complex, const double* coordinates, std::span<const double> factor,
+                std::size_t point_count, PlaneTops& tops, double width, DualFacets& facets)
+      : complex_(complex),
+        coordinates_(coordinates),
+        length_of_(factor),
+        tops_(tops),
+        width_(width),
+        table_(facets),
+        facets_(facets.count()),
+        next_(facets.count(), kNone),
+        last_(facets.count()),
+        place_of_(facets.count(), 0),
+        listed_(std::move(facets.vertices)),
+        pass_of_(point_count, 0) {
+    for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+      facets_[facet] = {.simplices = static_cast<std::uint32_t>(facets.size(facet)),
+                        .first_vertex = facets.vertex_begin[facet],
+                        .vertex_count = facets.vertex_begin[facet + 1] - facets.vertex_begin[facet]};
+      last_[facet] = facet;
+    }
+  }
+
+  void run(std::size_t most_simplices) {
+    std::vector<std::uint32_t> small;
+    for (auto facet = static_cast<std::uint32_t>(table_.count()); facet-- > 0;)
+      if (facets_[facet].simplices <= most_simplices) small.push_back(facet);
+    for (std::size_t i = 0; i < small.size(); ++i) {
+      const std::uint32_t facet = small[i];
+      if (facets_[facet].simplices > most_simplices) continue;  // others have joined it
+      Fit fit;
+      const std::uint32_t host = best_neighbour(facet, fit);
+      if (host != kNone) join(facet, host, fit.place);
+    }
+    put_in_order();
+  }
+
+ private:
+  struct Facet {
+    std::uint32_t simplices;                   // 0: it has joined another
+    std::uint32_t first_vertex, vertex_count;  // in listed_, each vertex once; none of a single simplex
+  };
+  /// Between the facet that is being looked at and a neighbour.
+  struct Ridge {
+    std::uint32_t place;  // of the neighbour, in neighbours_
+    std::uint32_t own;    // the facet's vertex opposite the ridge
+    double height;        // of the neighbour's, below the facet's plane
+  };
+  struct Neighbour {
+    std::uint32_t facet;
+    Interval interval;
+  };
+
+  const std::uint32_t* row_of(std::uint32_t row) const {
+    return complex_.topology.data() + std::size_t{row} * 2 * D;
+  }
+  double dot(const double* plane, std::uint32_t point) const {
+    return dot_in_frame<D>(plane, coordinates_ + std::size_t{point} * D);
+  }
+  const double* plane_of(std::uint32_t facet) const { return table_.plane(facet).data(); }
+  double top_of(std::uint32_t facet) {
+    double& top = table_.tops[facet];
+    if (top == 0.0) top = tops_.of_simplex(plane_of(facet), table_.lengths[facet]);
+    return top;
+  }
+  double least_top(std::uint32_t facet) const { return std::max(1.0, table_.tops[facet]); }
+  /// How deep the facet's vertices may be below its plane's top.
+  double allowed(std::uint32_t facet) const { return width_ * double{table_.lengths[facet]}; }
+
+  /// Calls visit(row) for all simplices of the facet and of those that have joined it.
+  template <class Visit>
+  void for_members(std::uint32_t facet, const Visit& visit) const {
+    for (std::uint32_t part = facet; part != kNone; part = next_[part])
+      for (const std::uint32_t row : table_.members_of(part)) visit(row);
+  }
+
+  std::span<const PointId> vertices_of(std::uint32_t facet) const {
+    if (facets_[facet].simplices == 1) return complex_.vertices(SimplexId{table_.seed(facet)});
+    return {listed_.data() + facets_[facet].first_vertex, facets_[facet].vertex_count};
+  }
+
+  /// The neighbour that the facet is narrowest with; none: it fits with none of them.
+  std::uint32_t best_neighbour(std::uint32_t facet, Fit& best) {
+    find_neighbours(facet);
+    best.width = width_;
+    std::uint32_t host = kNone;
+    for (const Neighbour& neighbour : neighbours_) {
+      Fit fit;
+      if (neighbour.interval.is_empty() || !find_fit(facet, neighbour.facet, neighbour.interval, fit) ||
+          fit.width >= best.width)
+        continue;
+      best = fit;
+      host = neighbour.facet;
+    }
+    return host;
+  }
+
+  /// Neighbours, with what the two vertices across each ridge leave of the interval.
+  void find_neighbours(std::uint32_t facet) {
+    neighbours_.clear();
+    ridges_.clear();
+    const double* plane = plane_of(facet);
+    const double top = least_top(facet), room = allowed(facet), lowest = top - (1.0 + kReach) * room;
+    for_members(facet, [&](std::uint32_t simplex) {
+      const std::uint32_t* row = row_of(simplex);
+      const std::uint32_t mix = table_.simplices[simplex].mix;
+      for (std::size_t k = 0; k < D; ++k) {
+        const SimplexPlace neighbour = table_.simplices[row[D + k]];
+        if (neighbour.facet == facet) continue;
+        const double height = dot(plane, mix ^ row[k] ^ neighbour.mix);
+        std::uint32_t& place = place_of_[neighbour.facet];
+        if (place >= neighbours_.size() || neighbours_[place].facet != neighbour.facet) {
+          if (height < lowest) continue;
+          place = static_cast<std::uint32_t>(neighbours_.size());
+          neighbours_.push_back({neighbour.facet, Interval()});
+        }
+        ridges_.push_back({place, row[k], height});
+      }
+    });
+    for (const Ridge& ridge : ridges_) {
+      Interval& interval = neighbours_[ridge.place].interval;
+      if (interval.is_empty()) continue;
+      const std::uint32_t other = neighbours_[ridge.place].facet;
+      const double room_of_other = allowed(other);
+      // How deep each is below its own facet's plane is not looked at: it makes no more of the interval.
+      interval.take(top - ridge.height - room, -room_of_other);
+      interval.take(-room, least_top(other) - dot(plane_of(other), ridge.own) - room_of_other);
+    }
+  }
+
+  /// Is there a plane between those of the two facets that both are less than the width below?
+  bool find_fit(std::uint32_t facet, std::uint32_t other, Interval interval, Fit& fit) {
+    const std::array<std::uint32_t, 2> ends{facet, other};
+    const std::array<double, 2> top{top_of(facet), top_of(other)}, room{allowed(facet), allowed(other)};
+    const std::array<const double*, 2> plane{plane_of(facet), plane_of(other)};
+    depths_.clear();
+    for (const std::uint32_t end : ends) {
+      for (const PointId vertex : vertices_of(end)) {
+        const std::array<double, 2> depth{top[0] - dot(plane[0], vertex.value),
+                                          top[1] - dot(plane[1], vertex.value)};
+        interval.take(depth[0] - room[0], depth[1] - room[1]);
+        if (interval.is_empty()) return false;
+        depths_.push_back(depth);
+      }
+    }
+    fit.place = interval.middle();
+    double deepest = 0.0;
+    for (const std::array<double, 2>& depth : depths_)
+      deepest = std::max(deepest, (1.0 - fit.place) * depth[0] + fit.place * depth[1]);
+    std::array<double, D> between;
+    mix_planes(plane[0], plane[1], fit.place, between.data());
+    fit.width = deepest / length_of_(between.data());
+    return fit.width < width_;
+  }
+
+  static void mix_planes(const double* first, const double* last, double place, double* out) {
+    for (std::size_t k = 0; k < D; ++k) out[k] = (1.0 - place) * first[k] + place * last[k];
+  }
+
+  void join(std::uint32_t facet, std::uint32_t host, double place) {
+    for_members(facet, [&](std::uint32_t row) { table_.simplices[row].facet = host; });
+    std::array<double, D> between;
+    mix_planes(plane_of(facet), plane_of(host), place, between.data());
+    if (table_.own_plane[host] == kNone) {
+      table_.own_plane[host] = static_cast<std::uint32_t>(table_.own_planes.size() / D);
+      table_.own_planes.resize(table_.own_planes.size() + D);
+    }
+    std::ranges::copy(between, table_.own_planes.data() + std::size_t{table_.own_plane[host]} * D);
+    table_.lengths[host] = static_cast<float>(length_of_(between.data()));
+    table_.tops[host] = (1.0 - place) * table_.tops[facet] + place * table_.tops[host];
+    // Vertices of the host, then those that only the facet has.
+    union_.clear();
+    ++pass_;
+    for (const std::uint32_t part : {host, facet}) {
+      for (const PointId vertex : vertices_of(part)) {
+        if (pass_of_[vertex.value] == pass_) continue;
+        pass_of_[vertex.value] = pass_;
+        union_.push_back(vertex);
+      }
+    }
+    facets_[host] = {.simplices = facets_[host].simplices + facets_[facet].simplices,
+                     .first_vertex = static_cast<std::uint32_t>(listed_.size()),
+                     .vertex_count = static_cast<std::uint32_t>(union_.size())};
+    facets_[facet].simplices = 0;
+    listed_.insert(listed_.end(), union_.begin(), union_.end());
+    next_[last_[host]] = facet;
+    last_[host] = last_[facet];
+  }
+
+  /// Leaves the facets that have not joined another, their simplices together.
+  void put_in_order() {
+    std::vector<std::uint32_t> members, begin;
+    members.reserve(table_.members.size());
+    std::uint32_t used = 0;
+    for (std::uint32_t facet = 0; facet < table_.count(); ++facet) {
+      if (facets_[facet].simplices == 0) continue;
+      begin.push_back(static_cast<std::uint32_t>(members.size()));
+      for_members(facet, [&](std::uint32_t row) {
+        members.push_back(row);
+        table_.simplices[row].facet = used;
+      });
+      table_.own_plane[used] = table_.own_plane[facet];
+      table_.tops[used] = table_.tops[facet];
+      table_.lengths[used++] = table_.lengths[facet];
+    }
+    begin.push_back(static_cast<std::uint32_t>(members.size()));
+    table_.members = std::move(members);
+    table_.begin = std::move(begin);
+    table_.vertex_begin.clear();
+    table_.own_plane.resize(used);
+    table_.tops.resize(used);
+    table_.lengths.resize(used);
+  }
+
+  const SimplicialComplex& complex_;
+  const double* coordinates_;
+  GradientLength<D> length_of_;
+  PlaneTops& tops_;
+  double width_;
+  DualFacets& table_;
+  std::vector<Facet> facets_;
+  std::vector<std::uint32_t> next_, last_;  // per facet: chains of those that have joined it
+  std::vector<std::uint32_t> place_of_;     // per facet: in neighbours_, when it was there last
+  std::vector<Neighbour> neighbours_;       // of the facet that is being looked at
+  std::vector<Ridge> ridges_;
+  std::vector<PointId> listed_, union_;  // vertices
+  std::vector<std::uint32_t> pass_of_;   // per point: the last join that met it
+  std::uint32_t pass_ = 0;
+  std::vector<std::array<double, 2>> depths_;
+};
+
+}  // namespace
+
+void join_along_segments(const SimplicialComplex& complex, const double* coordinates,
+                         std::span<const double> gradient_factor, std::size_t point_count, PlaneTops& tops,
+                         double width, std::size_t most_simplices, DualFacets& facets) {
+  call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) {
+    SegmentMerger<d>(complex, coordinates, gradient_factor, point_count, tops, width, facets)
+        .run(most_simplices);
+  });
+}
+
+}  // namespace ndhull

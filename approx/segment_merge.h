@@ -1,0 +1,23 @@
+// Small facets join a neighbour below a plane between the two.
+#pragma once
+
+#include <cstddef>
+
+#include "approx/dual_facets.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Facets of up to `most_simplices` simplices join the neighbour with which they are narrowest below one
+/// plane, if that is less than `width`, the last ones first. The planes tried are those between the two
+/// facets' planes.
+///
+/// Shapes  coordinates: point_count x rank, in the frame. gradient_factor: rank x rank.
+/// Order   facets stay in the order of their first member; that of what has joined follows its own.
+/// Cost    two products for each ridge of the small facets; for the few pairs that may fit, four for each
+/// vertex.
+void join_along_segments(const SimplicialComplex& complex, const double* coordinates,
+                         std::span<const double> gradient_factor, std::size_t point_count, PlaneTops& tops,
+                         double width, std::size_t most_simplices, DualFacets& facets);
+
+}  // namespace ndhull

@@ -1,0 +1,333 @@
+// Idea. A slab is grown over neighbours from a seed and takes what no other slab has, so that each simplex is
+// met once; the seed's own plane is its plane, which no point is above where the hull is convex. Two things
+// keep slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And a
+// slab that would hold less than a fifth of what slabs hold on average where nothing is taken is given up at
+// first: most of its simplices will be taken from seeds that lie better.
+#include "approx/slab_partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "approx/gradient_length.h"
+#include "core/dimension_switch.h"
+#include "core/ids.h"
+
+namespace ndhull {
+namespace {
+
+/// Slabs that are grown to see how many simplices they hold.
+constexpr std::size_t kSamples = 64;
+/// Of so few simplices, or from so large slabs on, a choice among overlapping ones takes no longer than
+/// growth, and a tenth to a third of the facets off.
+constexpr double kFewSimplices = 65'536.0, kLargeSlabs = 800.0;
+/// Parts of that mean which a slab has to hold to be kept, pass by pass, before any is; of hulls that are
+/// small as well the larger ones, whose passes take 5 % off the facets and twice the time.
+constexpr std::array<double, 3> kWorthKeeping{0.6, 0.3, 0.1};
+constexpr double kWorthKeepingOnce = 0.2;
+constexpr std::size_t kSmallHull = 16'384;  // simplices
+/// Of a slab that is given up so many of the simplices, those nearest to its seed, are no seeds either.
+constexpr double kNoSeeds = 0.5;
+/// Classes of seeds by their planes' distance from the centre.
+constexpr std::size_t kClasses = 64;
+/// Rows whose way from memory has begun.
+constexpr std::size_t kAhead = 4, kSeedsAhead = 8;
+
+template <std::size_t D>
+class Partitioner {
+ public:
+  Partitioner(const SimplicialComplex& complex, const WidthSpace& space, const double* coordinates,
+              std::span<const double> factor, PointsAbove above, double width)
+      : complex_(complex),
+        space_(space),
+        coordinates_(coordinates),
+        length_of_(factor),
+        tops_(space, above),
+        above_(above),
+        width_(width),
+        dots_(space.point_count()) {
+    facets_.complex = &complex;
+    facets_.simplices = HugeArray<SimplexPlace>(complex.row_count);
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      SimplexPlace& place = facets_.simplices[row];
+      place.facet = kNone;
+      if (!is_live(row)) continue;
+      ++live_count_;
+      for (std::size_t k = 0; k < D; ++k) place.mix ^= row_of(row)[k];
+    }
+    facets_.members.resize(live_count_ + D);
+  }
+
+  std::optional<DualFacets> run() {
+    const double mean = mean_size();
+    if (is_worth_choosing(mean)) return std::nullopt;
+    std::vector<std::uint32_t> seeds = seeds_by_distance();
+    const auto keep_parts = [&](double part) {
+      const auto least = static_cast<std::size_t>(part * mean);
+      if (least > 1) keep_slabs(seeds, least);
+    };
+    if (live_count_ <= kSmallHull) {
+      std::ranges::for_each(kWorthKeeping, keep_parts);
+    } else {
+      keep_parts(kWorthKeepingOnce);
+    }
+    keep_slabs(seeds, 1);
+    facets_.begin.push_back(static_cast<std::uint32_t>(count_));
+    facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
+    facets_.members.resize(count_);
+    facets_.vertices.resize(vertex_count_);
+    return std::move(facets_);
+  }
+
+ private:
+  /// A product of the present slab's plane with a point.
+  struct Dot {
+    double value;
+    std::uint32_t slab = 0;        // that it was computed for
+    std::uint32_t is_in_slab = 0;  // a vertex of one of its simplices
+  };
+  /// How far the lists of facets are.
+  struct Ends {
+    std::size_t members, vertices;
+  };
+  struct SeedPlane {
+    std::array<double, D> plane;
+    double top, length, least;  // least: what vertices' products are at least
+    bool is_fitted = false;
+  };
+
+  bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
+  const std::uint32_t* row_of(std::uint32_t row) const {
+    return complex_.topology.data() + std::size_t{row} * 2 * D;
+  }
+  double dot(const std::array<double, D>& plane, std::uint32_t point) const {
+    return dot_in_frame<D>(plane.data(), coordinates_ + std::size_t{point} * D);
+  }
+
+  SeedPlane own_plane(std::uint32_t seed) const {
+    SeedPlane own;
+    std::copy_n(complex_.planes.data() + std::size_t{seed} * D, D, own.plane.data());
+    own.length = length_of_(own.plane.data());
+    own.top = 1.0;
+    own.least = 1.0 - width_ * own.length;
+    return own;
+  }
+
+  /// False: no plane was found that the seed is less than the width below.
+  bool raise_above_points(std::uint32_t seed, SeedPlane& own) {
+    if (above_ == PointsAbove::kNoPoint) return true;
+    own.top = tops_.of_simplex(own.plane.data(), own.length);
+    own.least = own.top - width_ * own.length;
+    return own.least <= 1.0 || fit_plane(seed, own);
+  }
+
+  /// Turns the plane of a seed that points are too far above.
+  bool fit_plane(std::uint32_t seed, SeedPlane& own) {
+    constexpr unsigned kSteps = 48;
+    std::array<std::uint32_t, D> vertices;
+    for (std::size_t k = 0; k < D; ++k) vertices[k] = space_.row_of(PointId{row_of(seed)[k]});
+    std::vector<double> normal(D);
+    space_.normal_of(own.plane, normal.data());
+    const FittedPlane start = measure_plane(space_, normal, vertices, fit_);
+    const FittedPlane fitted = narrow_plane(space_, start, vertices, kSteps, fit_);
+    if (fitted.width() > width_) return false;
+    space_.plane_of(fitted.normal.data(), fitted.height, own.plane.data());
+    own.length = length_of_(own.plane.data());
+    own.top = 1.0;
+    own.least = 1.0 - width_ * own.length;
+    own.is_fitted = true;
+    return true;
+  }
+
+  /// Appends the simplices of a slab, `own` being its plane: those that are in none yet and connected to the
+  /// seed.
+  void grow(std::uint32_t seed, const SeedPlane& own, std::uint32_t facet) {
+    SimplexPlace* const places = facets_.simplices.data();
+    std::uint32_t* const members = facets_.members.data();
+    const std::uint32_t slab = ++slab_;
+    std::size_t next = count_;
+    members[count_++] = seed;
+    places[seed].facet = facet;
+    make_room(D);
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::uint32_t vertex = row_of(seed)[k];
+      dots_[vertex] = {HUGE_VAL, slab, 1};
+      facets_.vertices[vertex_count_++] = PointId{vertex};
+    }
+    for (; next < count_; ++next) {
+      if (next + kAhead < count_) {
+        const std::uint32_t* later = row_of(members[next + kAhead]) + D;
+        for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k], 1);
+      }
+      const std::uint32_t* row = row_of(members[next]);
+      const std::uint32_t mix = places[members[next]].mix;
+      std::uint32_t open[D], across[D];
+      std::size_t open_count = 0;
+      for (std::size_t k = 0; k < D; ++k) {
+        const SimplexPlace neighbour = places[row[D + k]];
+        open[open_count] = row[D + k];
+        across[open_count] = mix ^ row[k] ^ neighbour.mix;
+        open_count += neighbour.facet == kNone ? 1u : 0u;
+      }
+      make_room(D);
+      for (std::size_t i = 0; i < open_count; ++i) {
+        Dot& known = dots_[across[i]];
+        if (known.slab != slab) known = {dot(own.plane, across[i]), slab, 0};
+        const bool is_taken = known.value >= own.least;
+        facets_.vertices[vertex_count_] = PointId{across[i]};
+        vertex_count_ += is_taken ? 1u - known.is_in_slab : 0u;
+        known.is_in_slab = is_taken ? 1u : 0u;  // one that is not taken now never is
+        members[count_] = open[i];
+        __builtin_prefetch(row_of(open[i]));
+        __builtin_prefetch(row_of(open[i]) + 2 * D - 1);
+        places[open[i]].facet = is_taken ? facet : kNone;
+        count_ += is_taken ? 1u : 0u;
+      }
+    }
+  }
+
+  /// For so many more vertices.
+  void make_room(std::size_t count) {
+    if (vertex_count_ + count > facets_.vertices.size())
+      facets_.vertices.resize(2 * facets_.vertices.size() + count);
+  }
+
+  void give_back(Ends begin) {
+    for (std::size_t i = begin.members; i < count_; ++i) facets_.simplices[facets_.members[i]].facet = kNone;
+    count_ = begin.members;
+    vertex_count_ = begin.vertices;
+  }
+
+  void add_facet(Ends begin, const SeedPlane& own) {
+    facets_.begin.push_back(static_cast<std::uint32_t>(begin.members));
+    facets_.vertex_begin.push_back(static_cast<std::uint32_t>(begin.vertices));
+    if (count_ - begin.members == 1) vertex_count_ = begin.vertices;
+    facets_.own_plane.push_back(own.is_fitted ? static_cast<std::uint32_t>(facets_.own_planes.size() / D)
+                                              : kNone);
+    if (own.is_fitted)
+      facets_.own_planes.insert(facets_.own_planes.end(), own.plane.begin(), own.plane.end());
+    facets_.tops.push_back(own.top);
+    facets_.lengths.push_back(static_cast<float>(own.length));
+  }
+
+  /// How many simplices slabs hold where nothing is taken.
+  double mean_size() {
+    std::size_t sum = 0, slabs = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const auto row = static_cast<std::uint32_t>((2 * i + 1) * complex_.row_count / (2 * kSamples));
+      if (!is_live(row)) continue;
+      SeedPlane own = own_plane(row);
+      ++slabs;
+      if (!raise_above_points(row, own)) continue;
+      grow(row, own, 0);
+      sum += count_;
+      give_back({0, 0});
+    }
+    return slabs > 0 ? static_cast<double>(sum) / static_cast<double>(slabs) : 1.0;
+  }
+
+  /// Are slabs so large that it is worth growing overlapping ones, and choosing a few of them?
+  bool is_worth_choosing(double mean) const {
+    const auto all = static_cast<double>(live_count_);
+    return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
+  }
+
+  /// Live rows, those whose planes are nearest to the centre first.
+  std::vector<std::uint32_t> seeds_by_distance() const {
+    std::vector<float> distances(complex_.row_count);
+    float nearest = HUGE_VALF, furthest = 0.0f;
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
+      if (!is_live(row)) continue;
+      distances[row] = static_cast<float>(1.0 / length_of_(complex_.planes.data() + std::size_t{row} * D));
+      nearest = std::min(nearest, distances[row]);
+      furthest = std::max(furthest, distances[row]);
+    }
+    const float scale = furthest > nearest ? (kClasses - 0.01f) / (furthest - nearest) : 0.0f;
+    const auto class_of = [&](std::uint32_t row) {
+      return std::min<std::size_t>(kClasses - 1,
+                                   static_cast<std::size_t>(scale * (distances[row] - nearest)));
+    };
+    std::array<std::uint32_t, kClasses + 1> begin{};
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
+      if (is_live(row)) ++begin[class_of(row) + 1];
+    for (std::size_t i = 0; i < kClasses; ++i) begin[i + 1] += begin[i];
+    std::vector<std::uint32_t> seeds(live_count_);
+    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
+      if (is_live(row)) seeds[begin[class_of(row)]++] = row;
+    return seeds;
+  }
+
+  /// Grows slabs from the seeds in their order, and keeps those of `least` simplices. What is left are the
+  /// seeds that are in none.
+  void keep_slabs(std::vector<std::uint32_t>& seeds, std::size_t least) {
+    if (no_seed_.empty()) no_seed_.resize(complex_.row_count);
+    ++pass_;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      __builtin_prefetch(facets_.simplices.data() + seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
+      const std::uint32_t seed = seeds[i];
+      if (facets_.simplices[seed].facet != kNone) continue;
+      if (least > 1 && no_seed_[seed] == pass_) {
+        seeds[left++] = seed;
+        continue;
+      }
+      const Ends begin{count_, vertex_count_};
+      SeedPlane own = own_plane(seed);
+      const auto facet = static_cast<std::uint32_t>(facets_.count());
+      if (raise_above_points(seed, own)) {
+        grow(seed, own, facet);
+      } else {
+        facets_.members[count_++] = seed;
+        facets_.simplices[seed].facet = facet;
+        facets_.all_fit = false;
+      }
+      const std::size_t size = count_ - begin.members;
+      if (size >= least) {
+        add_facet(begin, own);
+        continue;
+      }
+      const auto near = begin.members + 1 + static_cast<std::size_t>(kNoSeeds * static_cast<double>(size));
+      for (std::size_t member = begin.members; member < std::min(near, count_); ++member)
+        no_seed_[facets_.members[member]] = pass_;
+      give_back(begin);
+      seeds[left++] = seed;
+    }
+    seeds.resize(left);
+  }
+
+  void add_alone(std::uint32_t row, std::uint32_t facet) {
+    facets_.members[count_++] = row;
+    facets_.simplices[row].facet = facet;
+    make_room(D);
+    std::copy_n(row_of(row), D, facets_.vertices.data() + vertex_count_);
+    vertex_count_ += D;
+  }
+
+  const SimplicialComplex& complex_;
+  const WidthSpace& space_;
+  const double* coordinates_;
+  GradientLength<D> length_of_;
+  PlaneTops tops_;
+  PointsAbove above_;
+  PlaneFitWork fit_;
+  double width_;
+  std::vector<Dot> dots_;  // per point
+  std::uint32_t slab_ = 0;
+  std::vector<std::uint8_t> no_seed_;  // per row: the last pass that gave up a slab around it
+  std::uint8_t pass_ = 0;
+  std::size_t live_count_ = 0, count_ = 0, vertex_count_ = 0;
+  DualFacets facets_;
+};
+
+}  // namespace
+
+std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
+                                               const double* coordinates,
+                                               std::span<const double> gradient_factor, PointsAbove above,
+                                               double width) {
+  return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) {
+    return Partitioner<d>(complex, space, coordinates, gradient_factor, above, width).run();
+  });
+}
+
+}  // namespace ndhull

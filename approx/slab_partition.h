@@ -1,0 +1,29 @@
+// All simplices as disjoint slabs: simplices around a seed whose vertices all lie less than a width below one
+// plane that no point is above.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "approx/dual_facets.h"
+#include "approx/width_space.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Each live simplex is in one facet, whose simplices are connected. Nothing where slabs are so large that
+/// overlapping ones (approx/slab_cover.h) are worth their time.
+///
+/// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank.
+/// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
+/// it, no
+///         plane may be found.
+/// Cost    each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not
+/// convex, a
+///         product of a direction with all points for each slab tried.
+std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
+                                               const double* coordinates,
+                                               std::span<const double> gradient_factor, PointsAbove above,
+                                               double width);
+
+}  // namespace ndhull

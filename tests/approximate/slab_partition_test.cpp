@@ -1,0 +1,148 @@
+// Disjoint slabs, and what joins along segments between planes, seen from all points by plain loops.
+#include "approx/slab_partition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "approx/segment_merge.h"
+#include "tests/approximate/grown_sphere.h"
+
+namespace ndhull {
+namespace {
+
+/// Calls that have the frame's coordinates for distances.
+struct Slabs {
+  explicit Slabs(const GrownSphere& grown) : sphere(grown), factor(grown.work.rank * grown.work.rank, 0.0) {
+    for (std::size_t k = 0; k < grown.work.rank; ++k) factor[k * grown.work.rank + k] = 1.0;
+  }
+  std::optional<DualFacets> partition(double width, PointsAbove above = PointsAbove::kNoPoint) const {
+    return partition_into_slabs(sphere.work.complex, *sphere.space, sphere.coordinates.data(), factor, above,
+                                width);
+  }
+  void join(double width, std::size_t most, DualFacets& facets) const {
+    PlaneTops tops(*sphere.space, PointsAbove::kNoPoint);
+    join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count, tops,
+                        width, most, facets);
+  }
+  const GrownSphere& sphere;
+  std::vector<double> factor;
+};
+
+double product(const GrownSphere& sphere, std::span<const double> plane, std::uint32_t point) {
+  return sphere.product(std::vector<double>(plane.begin(), plane.end()), point);
+}
+
+void expect_each_simplex_once(const GrownSphere& sphere, const DualFacets& facets) {
+  const SimplicialComplex& complex = sphere.work.complex;
+  std::vector<unsigned> times(complex.row_count, 0);
+  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    for (const std::uint32_t row : facets.members_of(facet)) {
+      ++times[row];
+      EXPECT_EQ(facets.simplices[row].facet, facet);
+    }
+  }
+  for (std::uint32_t row = 0; row < complex.row_count; ++row)
+    EXPECT_EQ(times[row], sphere.is_live(row) ? 1u : 0u);
+}
+
+void expect_connected(const GrownSphere& sphere, const DualFacets& facets) {
+  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    std::vector<std::uint32_t> met{facets.seed(facet)};
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
+        if (facets.simplices[neighbour.value].facet == facet &&
+            std::find(met.begin(), met.end(), neighbour.value) == met.end())
+          met.push_back(neighbour.value);
+      }
+    }
+    EXPECT_EQ(met.size(), facets.size(facet));
+  }
+}
+
+/// No point above the plane's top, no vertex of the facet a width or more below it.
+void expect_slabs(const GrownSphere& sphere, const DualFacets& facets, double width) {
+  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    const std::span<const double> plane = facets.plane(facet);
+    double length_sq = 0.0, lowest = HUGE_VAL;
+    for (const double entry : plane) length_sq += entry * entry;
+    EXPECT_NEAR(double{facets.lengths[facet]}, std::sqrt(length_sq), 1e-6 * std::sqrt(length_sq));
+    for (std::uint32_t id = 0; id < sphere.work.point_count; ++id)
+      EXPECT_LE(product(sphere, plane, id), facets.tops[facet] + 1e-12);
+    for (const std::uint32_t row : facets.members_of(facet))
+      for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
+        lowest = std::min(lowest, product(sphere, plane, id.value));
+    EXPECT_LE((facets.tops[facet] - lowest) / std::sqrt(length_sq), width * (1.0 + 1e-9));
+  }
+}
+
+TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
+  for (const char* words : {"400 s D5 t1", "300 s D4 t2", "120 s D7 t3"}) {
+    const GrownSphere sphere(words, static_cast<std::uint32_t>(std::atoi(words)));
+    const Slabs slabs(sphere);
+    std::size_t last = SIZE_MAX;
+    for (const double width : {0.01, 0.05, 0.1}) {
+      const std::optional<DualFacets> facets = slabs.partition(width);
+      ASSERT_TRUE(facets);
+      EXPECT_TRUE(facets->all_fit);
+      expect_each_simplex_once(sphere, *facets);
+      expect_connected(sphere, *facets);
+      expect_slabs(sphere, *facets, width);
+      EXPECT_LT(facets->count(), last);
+      last = facets->count();
+    }
+  }
+}
+
+TEST(SlabPartitionLaw, OverlappingSlabsAreBetterWhereAFewHoldAll) {
+  const GrownSphere sphere("400 s D5 t1", 400);
+  EXPECT_FALSE(Slabs(sphere).partition(0.6));
+}
+
+TEST(SlabPartitionLaw, PointsAreLookedAtToTheSameEnd) {
+  const GrownSphere sphere("300 s D5 t4", 300);
+  const Slabs slabs(sphere);
+  const std::optional<DualFacets> known = slabs.partition(0.05),
+                                  asked = slabs.partition(0.05, PointsAbove::kAny);
+  ASSERT_TRUE(known && asked);
+  EXPECT_EQ(known->members, asked->members);
+  for (const double top : asked->tops) EXPECT_NEAR(top, 1.0, 1e-12);
+}
+
+TEST(SegmentMergeLaw, JoinedFacetsAreSlabsToo) {
+  for (const char* words : {"400 s D5 t1", "300 s D4 t2", "120 s D7 t3"}) {
+    const GrownSphere sphere(words, static_cast<std::uint32_t>(std::atoi(words)));
+    const Slabs slabs(sphere);
+    for (const double width : {0.01, 0.05, 0.1}) {
+      std::size_t last = slabs.partition(width)->count();
+      for (const std::size_t most : {1u, 3u, 50u}) {
+        DualFacets facets = *slabs.partition(width);
+        slabs.join(width, most, facets);
+        expect_each_simplex_once(sphere, facets);
+        expect_connected(sphere, facets);
+        expect_slabs(sphere, facets, width);
+        EXPECT_LT(facets.count(), last) << words << ", width " << width << ", most " << most;
+        last = facets.count();
+      }
+    }
+  }
+}
+
+TEST(SegmentMergeExample, NeighboursOnACircleJoinBelowALineBetweenTheirs) {
+  const GrownSphere sphere("60 s D2 t5", 60);
+  const Slabs slabs(sphere);
+  // Own planes alone: a neighbour's far end is deeper than the width. Between the two planes it is half as
+  // deep.
+  const double width = 0.75 * (1.0 - std::cos(2.0 * 3.14159265358979 / 60.0));
+  DualFacets facets = *slabs.partition(width);
+  const std::size_t before = facets.count();
+  slabs.join(width, 1, facets);
+  EXPECT_LT(facets.count(), before);
+  expect_slabs(sphere, facets, width);
+}
+
+}  // namespace
+}  // namespace ndhull
