@@ -210,14 +210,16 @@ class Partitioner {
     facets_.lengths.push_back(static_cast<float>(own.length));
   }
 
-  /// How many simplices slabs hold where nothing is taken.
+  /// How many simplices slabs hold where nothing is taken. Where they are large a few tell.
   double mean_size() {
+    constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
     std::size_t sum = 0, slabs = 0;
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      const auto row = static_cast<std::uint32_t>((2 * i + 1) * complex_.row_count / (2 * kSamples));
+    for (std::size_t i = 0; i < kSamples && 2 * sum < live_count_; ++i) {
+      const std::size_t place = 2 * (i * kStep % kSamples) + 1;
+      const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
       if (!is_live(row)) continue;
-      SeedPlane own = own_plane(row);
       ++slabs;
+      SeedPlane own = own_plane(row);
       if (!raise_above_points(row, own)) continue;
       grow(row, own, 0);
       sum += count_;
