@@ -178,8 +178,9 @@ class Partitioner {
         vertex_count_ += is_taken ? 1u - known.is_in_slab : 0u;
         known.is_in_slab = is_taken ? 1u : 0u;  // one that is not taken now never is
         members[count_] = open[i];
-        __builtin_prefetch(row_of(open[i]));
-        __builtin_prefetch(row_of(open[i]) + 2 * D - 1);
+        const std::uint32_t* asked = row_of(is_taken ? open[i] : members[next]);
+        __builtin_prefetch(asked);
+        __builtin_prefetch(asked + 2 * D - 1);
         places[open[i]].facet = is_taken ? facet : kNone;
         count_ += is_taken ? 1u : 0u;
       }
