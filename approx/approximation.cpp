@@ -270,9 +270,8 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) const
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width);
   if (!facets) return std::nullopt;
-  PlaneTops tops(*space_, above);
   const std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
-  join_along_segments(complex, coordinates, factor_, space_->point_count(), tops, width, most, *facets);
+  join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
   return facets;
 }
 

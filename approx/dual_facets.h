@@ -22,8 +22,7 @@ namespace ndhull {
 /// What a walk over neighbours has to know of a simplex.
 struct SimplexPlace {
   std::uint32_t facet = 0;  ///< kNone: in none yet, or a free row
-  std::uint32_t mix =
-      0;  ///< XOR of its vertices (PointIds): two neighbours' differ by the vertices across the ridge
+  std::uint32_t mix = 0;    ///< XOR of its vertices (PointIds): gives the vertex across a ridge
 };
 
 /// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
@@ -37,7 +36,7 @@ struct DualFacets {
   std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end; empty: not listed
   std::vector<std::uint32_t> own_plane;     ///< per facet: which of own_planes; kNone: its seed's
   std::vector<double> own_planes;           ///< planes x rank
-  std::vector<double> tops;    ///< per facet: largest a.y of a point of the space; 0: was not needed
+  std::vector<double> tops;                 ///< per facet: no a.y of a point of the space is larger
   std::vector<float> lengths;  ///< per facet: |R a|, one over the plane's distance from the centre
   bool all_fit = true;         ///< no simplex that is a facet alone is thicker than the width
 

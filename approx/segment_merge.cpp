@@ -48,11 +48,10 @@ template <std::size_t D>
 class SegmentMerger {
  public:
   SegmentMerger(const SimplicialComplex& complex, const double* coordinates, std::span<const double> factor,
-                std::size_t point_count, PlaneTops& tops, double width, DualFacets& facets)
+                std::size_t point_count, double width, DualFacets& facets)
       : complex_(complex),
         coordinates_(coordinates),
         length_of_(factor),
-        tops_(tops),
         width_(width),
         table_(facets),
         facets_(facets.count()),
@@ -106,12 +105,7 @@ class SegmentMerger {
     return dot_in_frame<D>(plane, coordinates_ + std::size_t{point} * D);
   }
   const double* plane_of(std::uint32_t facet) const { return table_.plane(facet).data(); }
-  double top_of(std::uint32_t facet) {
-    double& top = table_.tops[facet];
-    if (top == 0.0) top = tops_.of_simplex(plane_of(facet), table_.lengths[facet]);
-    return top;
-  }
-  double least_top(std::uint32_t facet) const { return std::max(1.0, table_.tops[facet]); }
+  double top_of(std::uint32_t facet) const { return table_.tops[facet]; }
   /// How deep the facet's vertices may be below its plane's top.
   double allowed(std::uint32_t facet) const { return width_ * double{table_.lengths[facet]}; }
 
@@ -148,7 +142,7 @@ class SegmentMerger {
     neighbours_.clear();
     ridges_.clear();
     const double* plane = plane_of(facet);
-    const double top = least_top(facet), room = allowed(facet), lowest = top - (1.0 + kReach) * room;
+    const double top = top_of(facet), room = allowed(facet), lowest = top - (1.0 + kReach) * room;
     for_members(facet, [&](std::uint32_t simplex) {
       const std::uint32_t* row = row_of(simplex);
       const std::uint32_t mix = table_.simplices[simplex].mix;
@@ -172,7 +166,7 @@ class SegmentMerger {
       const double room_of_other = allowed(other);
       // How deep each is below its own facet's plane is not looked at: it makes no more of the interval.
       interval.take(top - ridge.height - room, -room_of_other);
-      interval.take(-room, least_top(other) - dot(plane_of(other), ridge.own) - room_of_other);
+      interval.take(-room, top_of(other) - dot(plane_of(other), ridge.own) - room_of_other);
     }
   }
 
@@ -263,7 +257,6 @@ class SegmentMerger {
   const SimplicialComplex& complex_;
   const double* coordinates_;
   GradientLength<D> length_of_;
-  PlaneTops& tops_;
   double width_;
   DualFacets& table_;
   std::vector<Facet> facets_;
@@ -280,11 +273,10 @@ class SegmentMerger {
 }  // namespace
 
 void join_along_segments(const SimplicialComplex& complex, const double* coordinates,
-                         std::span<const double> gradient_factor, std::size_t point_count, PlaneTops& tops,
-                         double width, std::size_t most_simplices, DualFacets& facets) {
+                         std::span<const double> gradient_factor, std::size_t point_count, double width,
+                         std::size_t most_simplices, DualFacets& facets) {
   call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) {
-    SegmentMerger<d>(complex, coordinates, gradient_factor, point_count, tops, width, facets)
-        .run(most_simplices);
+    SegmentMerger<d>(complex, coordinates, gradient_factor, point_count, width, facets).run(most_simplices);
   });
 }
 

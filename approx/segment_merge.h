@@ -14,10 +14,10 @@ namespace ndhull {
 ///
 /// Shapes  coordinates: point_count x rank, in the frame. gradient_factor: rank x rank.
 /// Order   facets stay in the order of their first member; that of what has joined follows its own.
-/// Cost    two products for each ridge of the small facets; for the few pairs that may fit, four for each
-/// vertex.
+/// Cost    two products for each ridge of the small facets, and for each vertex of the few pairs that may
+/// fit.
 void join_along_segments(const SimplicialComplex& complex, const double* coordinates,
-                         std::span<const double> gradient_factor, std::size_t point_count, PlaneTops& tops,
-                         double width, std::size_t most_simplices, DualFacets& facets);
+                         std::span<const double> gradient_factor, std::size_t point_count, double width,
+                         std::size_t most_simplices, DualFacets& facets);
 
 }  // namespace ndhull

@@ -16,11 +16,9 @@ namespace ndhull {
 ///
 /// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
-/// it, no
-///         plane may be found.
-/// Cost    each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not
-/// convex, a
-///         product of a direction with all points for each slab tried.
+///           it, no plane may be found (all_fit tells).
+/// Cost      each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not
+///           convex, a product of a direction with all points for each slab tried.
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,

@@ -24,8 +24,7 @@ struct Slabs {
                                 width);
   }
   void join(double width, std::size_t most, DualFacets& facets) const {
-    PlaneTops tops(*sphere.space, PointsAbove::kNoPoint);
-    join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count, tops,
+    join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count,
                         width, most, facets);
   }
   const GrownSphere& sphere;
