@@ -72,8 +72,7 @@ class SegmentMerger {
     std::vector<std::uint32_t> small;
     for (auto facet = static_cast<std::uint32_t>(table_.count()); facet-- > 0;)
       if (facets_[facet].simplices <= most_simplices) small.push_back(facet);
-    for (std::size_t i = 0; i < small.size(); ++i) {
-      const std::uint32_t facet = small[i];
+    for (const std::uint32_t facet : small) {
       if (facets_[facet].simplices > most_simplices) continue;  // others have joined it
       Fit fit;
       const std::uint32_t host = best_neighbour(facet, fit);

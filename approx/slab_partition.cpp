@@ -277,16 +277,17 @@ class Partitioner {
       const Ends begin{count_, vertex_count_};
       SeedPlane own = own_plane(seed);
       const auto facet = static_cast<std::uint32_t>(facets_.count());
-      if (raise_above_points(seed, own)) {
+      const bool fits = raise_above_points(seed, own);
+      if (fits) {
         grow(seed, own, facet);
       } else {
         facets_.members[count_++] = seed;
         facets_.simplices[seed].facet = facet;
-        facets_.all_fit = false;
       }
       const std::size_t size = count_ - begin.members;
       if (size >= least) {
         add_facet(begin, own);
+        facets_.all_fit = facets_.all_fit && fits;
         continue;
       }
       const auto near = begin.members + 1 + static_cast<std::size_t>(kNoSeeds * static_cast<double>(size));
@@ -296,14 +297,6 @@ class Partitioner {
       seeds[left++] = seed;
     }
     seeds.resize(left);
-  }
-
-  void add_alone(std::uint32_t row, std::uint32_t facet) {
-    facets_.members[count_++] = row;
-    facets_.simplices[row].facet = facet;
-    make_room(D);
-    std::copy_n(row_of(row), D, facets_.vertices.data() + vertex_count_);
-    vertex_count_ += D;
   }
 
   const SimplicialComplex& complex_;
