@@ -39,13 +39,15 @@ constexpr int kRounds = 24;
 }  // namespace
 
 Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
-                             std::vector<double> factor, CertifiedGrowth& growth, Hull& hull)
+                             std::vector<double> factor, CertifiedGrowth& growth, Hull& hull,
+                             double input_bytes)
     : frame_(frame),
       accuracy_(accuracy),
       lengths_(lengths),
       factor_(std::move(factor)),
       growth_(growth),
-      hull_(hull) {}
+      hull_(hull),
+      input_bytes_(input_bytes) {}
 
 FacetClusters Approximation::run() {
   hull_.chosen.width_asked = lengths_.width > 0.0 ? lengths_.width : lengths_.outside_width;
@@ -313,6 +315,7 @@ FacetClusters Approximation::run_width() {
       lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
   double slab = target;
   Covering covering;
+  if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
     grow_for_width(outside_width, slab);

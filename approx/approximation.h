@@ -12,6 +12,7 @@
 #include "approx/facet_layout.h"
 #include "approx/hull.h"
 #include "approx/slab_cover.h"
+#include "approx/star_hull.h"
 #include "approx/width_space.h"
 #include "core/point_tree.h"
 
@@ -38,9 +39,10 @@ inline constexpr double kShareForGrowth = 0.25;
 /// One approximate hull on its way.
 class Approximation {
  public:
-  /// All must outlive this. `factor`: gradient_factor of the frame and the length unit.
+  /// All must outlive this. `factor`: gradient_factor of the frame and the length unit. `input_bytes`: of the
+  /// input that growth's points were kept of.
   Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
-                std::vector<double> factor, CertifiedGrowth& growth, Hull& hull);
+                std::vector<double> factor, CertifiedGrowth& growth, Hull& hull, double input_bytes);
 
   /// Grows the hull and says which simplices become which facet. The complex may keep free rows; cluster_of
   /// has an entry for each row. No clusters: all facets are simplices so far.
@@ -48,6 +50,8 @@ class Approximation {
   /// Promised  with a target width no facet is wider, unless a limit ended growth: rounds go on, with smaller
   ///           slabs and more points, until the true widths over all points fit.
   FacetClusters run();
+  /// What run() found instead of clusters, if it did.
+  std::optional<StarHull>& star_hull() { return star_hull_; }
 
  private:
   void make_space(bool with_left_out);
@@ -94,6 +98,8 @@ class Approximation {
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices) const;
   void grow_for_width(double outside_width, double slab);
+  bool may_do_without_complex() const;
+  bool find_stars(double outside_width, double slab);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();
@@ -106,6 +112,8 @@ class Approximation {
   std::vector<double> factor_;
   CertifiedGrowth& growth_;
   Hull& hull_;
+  double input_bytes_;
+  std::optional<StarHull> star_hull_;
   std::vector<PointId> extra_;  // points that reached further than the space knew
   std::optional<WidthSpace> space_;
   std::optional<PointTree>

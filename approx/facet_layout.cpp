@@ -161,6 +161,15 @@ MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> 
 
 }  // namespace
 
+ScaledFactor scale_factor(std::span<const double> gradient_factor) {
+  ScaledFactor scaled{{gradient_factor.begin(), gradient_factor.end()}};
+  double largest = 0.0;
+  for (const double entry : gradient_factor) largest = std::max(largest, std::abs(entry));
+  std::frexp(largest, &scaled.exponent);
+  for (double& entry : scaled.factor) entry = std::ldexp(entry, -scaled.exponent);
+  return scaled;
+}
+
 FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   FacetLayout layout;
   layout.regular = layout.simplicial = layout.facets = complex.row_count;
@@ -182,12 +191,9 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.facets = layout.simplicial + clusters.count;
   const std::vector<std::uint32_t> old_of_new = row_order(kinds);
   list_simplices(clusters, places, old_of_new, layout);
-  double largest = 0.0;
-  for (const double entry : gradient_factor) largest = std::max(largest, std::abs(entry));
-  std::frexp(largest, &layout.surface_exponent);
-  std::vector<double> factor(gradient_factor.begin(), gradient_factor.end());
-  for (double& entry : factor) entry = std::ldexp(entry, -layout.surface_exponent);
-  MergedSums sums = sum_merged(complex, determinants, clusters, places, factor);
+  const ScaledFactor scaled = scale_factor(gradient_factor);
+  layout.surface_exponent = scaled.exponent;
+  MergedSums sums = sum_merged(complex, determinants, clusters, places, scaled.factor);
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
   const std::span<const std::uint32_t> alone = std::span(old_of_new).first(layout.simplicial);

@@ -48,6 +48,13 @@ struct FacetLayout {
   }
 };
 
+/// A gradient factor times 2^-exponent, so that areas of huge data are doubles.
+struct ScaledFactor {
+  std::vector<double> factor;
+  int exponent = 0;
+};
+ScaledFactor scale_factor(std::span<const double> gradient_factor);
+
 /// The layout without merging.
 FacetLayout simplicial_layout(const SimplicialComplex& complex);
 

@@ -58,7 +58,8 @@ double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.in
 
 const FacetLists& Hull::lists() const {
   std::call_once(lists_->made, [this] {
-    lists_->lists = list_irregular_facets(simplices_, layout_, vertices, point_count);
+    lists_->lists = list_irregular_facets(
+        simplices(), later_ ? later_->layout(layout_.simplicial) : layout_, vertices, point_count);
   });
   return lists_->lists;
 }
@@ -75,18 +76,18 @@ std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
   return {reinterpret_cast<const FacetId*>(neighbours.data()), neighbours.size()};
 }
 
-const SimplicialComplex& Hull::simplices() const { return pulled_ ? pulled_->complex() : simplices_; }
+const SimplicialComplex& Hull::simplices() const { return later_ ? later_->complex() : simplices_; }
 
 FacetId Hull::facet_of(SimplexId simplex) const {
-  return pulled_ ? pulled_->facet_of(simplex) : layout_.facet_of(simplex);
+  return later_ ? later_->facet_of(simplex) : layout_.facet_of(simplex);
 }
 
 std::uint64_t Hull::simplex_count_of(FacetId facet) const {
-  return pulled_ ? pulled_->count_of(facet) : simplices_of(facet).size();
+  return later_ ? later_->count_of(facet) : simplices_of(facet).size();
 }
 
 std::span<const SimplexId> Hull::simplices_of(FacetId facet) const {
-  if (pulled_) return pulled_->of(facet);
+  if (later_) return later_->of(facet);
   return layout_.simplices_of(facet);
 }
 

@@ -17,8 +17,8 @@
 #include "approx/accuracy.h"
 #include "approx/facet_layout.h"
 #include "approx/facet_lists.h"
+#include "approx/later_simplices.h"
 #include "approx/length_unit.h"
-#include "approx/pulled_simplices.h"
 #include "core/dimension_switch.h"
 #include "core/huge_array.h"
 #include "core/ids.h"
@@ -207,7 +207,7 @@ class Hull {
   std::unique_ptr<Lists> lists_ = std::make_unique<Lists>();
   SimplicialComplex simplices_;
   std::uint64_t simplex_count_ = 0;
-  std::unique_ptr<PulledSimplices> pulled_;  // of a hull that was found without simplices
+  std::unique_ptr<LaterSimplices> later_;  // of a hull that was found without simplices
   LengthUnit length_unit_;
 };
 

@@ -36,13 +36,17 @@ Eigen::MatrixXd gather_columns(const PointView& points, std::span<const PointId>
 /// The greedy choice.
 class Chooser {
  public:
-  Chooser(const PointView& points, std::span<const PointId> vertices, std::span<const double> centre)
+  Chooser(const PointView& points, std::span<const PointId> vertices, std::span<const double> centre,
+          const KeepOptions& options)
       : vertices_(vertices),
         columns_(gather_columns(points, vertices, centre)),
+        kept_(columns_.leftCols(static_cast<Index>(options.given))),
         found_(vertices.size()),
-        is_current_(vertices.size(), false) {
-    kept_.resize(columns_.rows(), 0);
+        is_current_(vertices.size(), false),
+        enough_(options.enough) {
     size_ = std::sqrt(columns_.colwise().squaredNorm().maxCoeff());
+    const auto first = static_cast<std::uint32_t>(options.given);
+    for (std::uint32_t row = first; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
   }
 
   std::size_t furthest_from_centre() const {
@@ -57,21 +61,20 @@ class Chooser {
     for_each_block(vertices_.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row != end; ++row) {
         const HullDistance& known = found_[row];
-        if (known.places.empty()) continue;
+        if (known.places.empty() || known.upper <= enough_) continue;
         const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(row));
         if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[row] = 0;
       }
     });
-    if (queue_.empty()) {
-      for (std::uint32_t row = 0; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
-    }
   }
 
-  /// The vertex that is furthest from the hull of those kept.
+  /// The vertex that is furthest from the hull of those kept, or one that is near enough as all are. There is
+  /// one that was not given.
   std::size_t furthest() {
     while (true) {
       std::vector<std::uint32_t> looks;
-      while (looks.size() < kLooksAtATime && !queue_.empty() && is_current_[queue_.top().vertex] == 0) {
+      while (looks.size() < kLooksAtATime && !queue_.empty() && queue_.top().distance > enough_ &&
+             is_current_[queue_.top().vertex] == 0) {
         looks.push_back(queue_.top().vertex);
         queue_.pop();
       }
@@ -86,6 +89,12 @@ class Chooser {
   }
 
   const HullDistance& distance(std::size_t vertex) const { return found_[vertex]; }
+  std::vector<double> distances() const {
+    std::vector<double> distances(found_.size());
+    std::transform(found_.begin(), found_.end(), distances.begin(),
+                   [](const HullDistance& known) { return known.upper; });
+    return distances;
+  }
   double vertex_rounding() const { return kVertexRounding * size_; }
   double size() const { return size_; }
 
@@ -103,7 +112,8 @@ class Chooser {
   Eigen::MatrixXd kept_;
   std::vector<HullDistance> found_;
   std::vector<std::uint8_t> is_current_;
-  std::priority_queue<Entry> queue_;  // one entry a vertex
+  std::priority_queue<Entry> queue_;  // one entry a vertex that was not given
+  double enough_;
   double size_ = 0.0;
 };
 
@@ -113,8 +123,11 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
                        std::span<const double> centre, const KeepOptions& options) {
   KeptPoints result;
   if (vertices.empty()) return result;
-  Chooser chooser(points, vertices, centre);
-  std::size_t next = chooser.furthest_from_centre();
+  Chooser chooser(points, vertices, centre, options);
+  result.points.assign(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(options.given));
+  result.left.resize(vertices.size());
+  if (options.given == vertices.size()) return result;
+  std::size_t next = options.given > 0 ? chooser.furthest() : chooser.furthest_from_centre();
   double last_distance = HUGE_VAL;
   while (true) {
     chooser.keep(next);
@@ -125,12 +138,13 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
     result.distances.push_back(last_distance);
     result.lower = furthest.lower;
     if (result.points.size() >= std::min(options.count, vertices.size()) || furthest.lower == 0.0) break;
-    if (options.stop.stop_requested()) break;
+    if (furthest.upper <= options.enough || options.stop.stop_requested()) break;
     if (options.progress) {
       options.progress("kept " + std::to_string(result.points.size()) + ", distance " +
                        std::to_string(last_distance));
     }
   }
+  result.left = chooser.distances();
   return result;
 }
 

@@ -21,16 +21,20 @@ struct KeptPoints {
   std::vector<PointId> points;
   std::vector<double> distances;  ///< [distance, input units] proven, roundoff included; none rises
   double lower = 0.0;  ///< [distance] proven: some input point is at least so far from the final hull
+  /// [distance] of each of the vertices given, proven: no further from the final hull. Those that are kept: 0.
+  std::vector<double> left;
 };
 
 struct KeepOptions {
   std::size_t count = 100;  ///< vertices wanted, at least 1
+  std::size_t given = 0;    ///< so many of the vertices, the first ones, are kept from the beginning
+  double enough = 0.0;      ///< [distance] none further from the hull than this is looked at, or kept
   std::stop_token stop = {};
   std::function<void(std::string_view)> progress = {};  ///< called from the calling thread
 };
 
-/// Chooses vertices greedily: first the one furthest from `centre`, then again and again the one furthest
-/// from the hull of those chosen, until there are enough or none is outside.
+/// Chooses vertices greedily: first those given, or the one furthest from `centre`, then again and again the
+/// one furthest from the hull of those chosen, until there are enough or none is outside.
 ///
 /// vertices  of all the points (extreme_points): the distance from a hull is a convex function, so no point
 /// is

@@ -1,8 +1,10 @@
 // How far an approximate hull grows: the part of approx/approximation.h that comes before its facets.
 #include "approx/approximation.h"
+#include "approx/length_unit.h"
 #include "approx/outside_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ndhull {
 namespace {
@@ -20,6 +22,11 @@ constexpr double kAloneShare = 0.995;
 /// Rounds of points that go back before the best so far is taken: those that are where they were not located,
 /// and those that a search finds, few at a time.
 constexpr int kRounds = 24, kSearchRounds = 96;
+/// Simplices from which on growth is asked whether the hull is found without them.
+constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 19;
+/// [bytes] A complex may be so large, or so many times the input, of inputs of this size and more. Below, the
+/// time that stars take more is not worth the memory.
+constexpr double kMostComplexBytes = 0x1p29, kMostOfInput = 2.0, kLargeInput = 0x1p26;
 
 }  // namespace
 
@@ -87,6 +94,38 @@ void Approximation::grow_for_width(double outside_width, double slab) {
   constexpr std::uint64_t kStep = kEnoughAtHalf / 16;
   while (simplices() < kManySimplices && growth_.furthest_height() > kHalf * slab)
     if (!has_paused(std::min<std::uint64_t>(kManySimplices, simplices() + kStep), HUGE_VAL)) return;
+}
+
+/// Is it asked for in a way that stars can answer, which have no early end?
+bool Approximation::may_do_without_complex() const {
+  const HullOptions& options = growth_.options();
+  return lengths_.outside_width == 0.0 && growth_.frame().rank >= 3 && !options.wants_simplices &&
+         options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+}
+
+/// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
+/// large input.
+bool Approximation::find_stars(double outside_width, double slab) {
+  const std::uint64_t most_rows = growth_.most_rows();
+  if (!may_do_without_complex() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
+  const std::uint64_t enough =
+      most_rows == 0 ? kRowsBeforeStars : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
+  if (growth_.grow_to(outside_width, enough, HUGE_VAL) || growth_.is_limited()) return false;
+  // Heights fall about so fast as simplices become more: 5-d to 9-d spheres, balls and gaussian points.
+  const double rank = static_cast<double>(growth_.frame().rank);
+  const double fall = growth_.furthest_height() / (kGrowthShareOfHuge * slab);
+  const double rows = static_cast<double>(enough) * std::pow(std::max(1.0, fall), (rank - 1.0) / 3.0);
+  const double bytes = rows * (16.0 * rank + 5.0);
+  const bool is_too_large = input_bytes_ >= kLargeInput &&
+                            bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
+  if (!is_too_large && (most_rows == 0 || rows < static_cast<double>(most_rows))) return false;
+  const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
+  star_hull_ = find_star_hull(growth_, factor_, area.factor, slab);
+  if (!star_hull_) return false;
+  star_hull_->surface_exponent = area.exponent;
+  hull_.chosen.outside_width = star_hull_->distance;
+  hull_.chosen.slab_width = slab;
+  return true;
 }
 
 }  // namespace ndhull

@@ -26,6 +26,7 @@ class WidthSpace {
 
   std::size_t rank() const { return rank_; }
   std::size_t vertex_count() const { return vertex_count_; }
+  std::span<const double> gradient_factor() const { return factor_; }
   /// Of the input, of which some are in the space.
   std::size_t point_count() const { return row_of_point_.size(); }
   const SupportTable& table() const { return table_; }

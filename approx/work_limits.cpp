@@ -78,6 +78,15 @@ bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimens
   return work.complex.row_count <= rows_for(bytes_a_row, bytes_of_points);
 }
 
+std::uint64_t WorkLimits::most_star_rows(const GrowthWork& work, std::uint64_t point_bytes) const {
+  constexpr std::uint64_t kMost = UINT32_MAX - 1;
+  if (limits_.most_memory() == 0) return kMost;
+  const std::uint64_t complex_bytes = work.complex.row_count * (16 * work.rank + kFacetBytes);
+  // A third more for what the allocator keeps, and the tables of facets.
+  const std::uint64_t bytes_a_row = (2 * work.rank + 4) * 4 / 3;
+  return std::min(kMost, rows_for(bytes_a_row, point_bytes + complex_bytes));
+}
+
 double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }
 
 double WorkLimits::seconds_per_created(const GrowthWork& work) {

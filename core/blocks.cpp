@@ -37,4 +37,10 @@ void for_each_block(std::size_t count, std::size_t size, BlockWork work) {
   NDHULL_CHECK(shared.done.load(std::memory_order_acquire) == blocks);
 }
 
+void run_alone(BlockWork work) {
+  if (!has_more_threads()) return work(0, 1);
+  tbb::task_arena one(1);
+  one.execute([&] { work(0, 1); });
+}
+
 }  // namespace ndhull

@@ -34,4 +34,7 @@ bool has_more_threads();
 /// at the same time where there are threads, otherwise one after the other. `size` is at least 1.
 void for_each_block(std::size_t count, std::size_t size, BlockWork work);
 
+/// Calls work(0, 1) with loops that are not shared out: for work that is one of many blocks itself.
+void run_alone(BlockWork work);
+
 }  // namespace ndhull

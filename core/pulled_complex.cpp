@@ -17,7 +17,7 @@ class ComplexMaker {
   ComplexMaker(const PulledFaces& faces, std::span<const std::uint32_t> first_rows)
       : faces_(faces), first_rows_(first_rows), rank_(faces.rank) {}
 
-  PulledComplex run() {
+  GroupedComplex run() {
     std::uint64_t count = 0;
     for (const std::uint32_t face : faces_.facets)
       count = std::max(count, count + faces_.faces[face].simplices);
@@ -148,7 +148,7 @@ class ComplexMaker {
   const PulledFaces& faces_;
   std::span<const std::uint32_t> first_rows_;
   std::size_t rank_;
-  PulledComplex made_;
+  GroupedComplex made_;
   std::uint32_t next_ = 0;
   std::vector<std::uint32_t> apexes_, first_vertices_;
   std::vector<std::size_t> places_;
@@ -156,7 +156,7 @@ class ComplexMaker {
 
 }  // namespace
 
-PulledComplex make_complex(const PulledFaces& faces, std::span<const std::uint32_t> first_rows) {
+GroupedComplex make_complex(const PulledFaces& faces, std::span<const std::uint32_t> first_rows) {
   return ComplexMaker(faces, first_rows).run();
 }
 

@@ -11,17 +11,11 @@
 
 namespace ndhull {
 
-/// Simplices without planes, those of each facet one after the other.
-struct PulledComplex {
-  SimplicialComplex complex;
-  std::vector<std::uint32_t> facet_begin;  ///< facets + 1 entries: rows of the complex
-};
-
 /// Shapes  first_rows: the vertices of the facets that are simplices, which come first, in the order that
 ///         orients them alike; rank each.
 /// Returns a complex as core/simplicial_complex.h describes: closed, oriented alike.
 /// Throws  Error kTooManySimplices more than 2^27 simplices.
 /// Cost    O(s rank^2) for s simplices.
-PulledComplex make_complex(const PulledFaces& faces, std::span<const std::uint32_t> first_rows);
+GroupedComplex make_complex(const PulledFaces& faces, std::span<const std::uint32_t> first_rows);
 
 }  // namespace ndhull

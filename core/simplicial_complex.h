@@ -59,6 +59,12 @@ struct SimplicialComplex {
   }
 };
 
+/// Simplices without planes, those of each facet one after the other.
+struct GroupedComplex {
+  SimplicialComplex complex;
+  std::vector<std::uint32_t> facet_begin;  ///< facets + 1 entries: rows of the complex
+};
+
 /// One flag for each of `point_count` points: is it a vertex of a live simplex among rows `begin` to, not
 /// including, `end`? Cost  O(rows rank), by all threads; a byte a point.
 std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t begin, std::size_t end,

@@ -1,0 +1,378 @@
+#include "approx/hull_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "approx/approximation.h"
+#include "approx/certified_growth.h"
+#include "approx/coplanar_merge.h"
+#include "approx/described_hull.h"
+#include "approx/exact_facets.h"
+#include "approx/facet_layout.h"
+#include "approx/facet_table.h"
+#include "approx/frame_planes.h"
+#include "approx/hull.h"
+#include "approx/pulled_simplices.h"
+#include "approx/regrown_simplices.h"
+#include "approx/volume_cover.h"
+#include "core/blocks.h"
+#include "core/error.h"
+#include "core/frame.h"
+#include "core/growth.h"
+#include "core/membership.h"
+#include "core/stopwatch.h"
+
+namespace ndhull {
+
+/// One run: the tables that its steps hand on.
+class HullBuilder {
+ public:
+  HullBuilder(const PointView& points, const HullOptions& options, Clock::time_point start,
+              double input_bytes)
+      : points_(points), options_(options), start_(start), input_bytes_(input_bytes) {}
+
+  /// The hull of some of the points in terms of all of them: point i of it is ids[i].
+  static void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
+    hull.point_count = point_count;
+    for (PointId& vertex : hull.vertices) vertex.value = ids[vertex.value];
+    if (hull.later_) {
+      hull.later_->rename_points(ids);
+      for (std::uint32_t& id : hull.lists_->lists.vertices.values) id = ids[id];
+      return;
+    }
+    hull.lists_ = std::make_unique<Hull::Lists>();  // of the points as they are called now
+    const std::size_t rank = hull.simplices_.rank;
+    for (std::size_t row = 0; row < hull.simplices_.row_count; ++row) {
+      std::uint32_t* vertices = hull.simplices_.topology.data() + row * 2 * rank;
+      for (std::size_t k = 0; k < rank; ++k) vertices[k] = ids[vertices[k]];
+    }
+  }
+
+  Hull run() {
+    frame_ = fit_frame(points_);
+    check_extents(frame_);
+    if (frame_.rank > kMaxRank) {
+      throw Error(ErrorCode::kDimensionTooHigh, "points span " + std::to_string(frame_.rank) +
+                                                    " dimensions, expected at most " +
+                                                    std::to_string(kMaxRank) + "; project them to fewer");
+    }
+    describe_input();
+    if (frame_.rank == 0) return std::move(hull_);
+    const Accuracy& accuracy = options_.accuracy;
+    if (accuracy.facets > 0 && accuracy.facets <= frame_.rank) {
+      throw Error(ErrorCode::kUsage, "target of facets: found " + std::to_string(accuracy.facets) +
+                                         ", expected at least " + std::to_string(frame_.rank + 1) +
+                                         ": the points span " + std::to_string(frame_.rank) +
+                                         " dimensions, and fewer planes bound no region; ask for more");
+    }
+    const bool is_exact = accuracy.is_exact() || accuracy.is_for_volume() || frame_.rank == 1;
+    std::vector<double> factor;
+    if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
+    growth_.emplace(points_, frame_, factor, options_, start_, hull_);
+    if (frame_.rank == 1) {
+      make_segment();
+    } else if (is_exact) {
+      if (grow_or_describe()) return std::move(hull_);
+      if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
+    } else {
+      approximate(factor);
+      if (star_hull_) {
+        adopt(std::move(*star_hull_));
+        return std::move(hull_);
+      }
+    }
+    const Clock::time_point merge_start = Clock::now();
+    KnownHighest known = growth_->take_known_highest();
+    for (const RowMove& move : compact(complex())) {
+      if (!clusters_.cluster_of.empty()) clusters_.cluster_of[move.to] = clusters_.cluster_of[move.from];
+      if (known.highest.empty()) continue;
+      known.highest[move.to] = known.highest[move.from];
+      std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
+                  known.normals.data() + move.to * frame_.dimension);
+    }
+    if (!clusters_.cluster_of.empty()) clusters_.cluster_of.resize(complex().row_count);
+    merge();
+    if (!is_bounded_) return for_width_instead();
+    if (clusters_.count > 0) known = KnownHighest();  // facets are no longer the rows
+    make_facets(known);
+    seconds(Phase::kMerge) += seconds_since(merge_start);
+    return std::move(hull_);
+  }
+
+ private:
+  SimplicialComplex& complex() { return growth_->work().complex; }
+  double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
+  void detail(std::string_view name, Clock::time_point since) {
+    hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
+  }
+
+  void describe_input() {
+    hull_.dimension = frame_.dimension;
+    hull_.rank = frame_.rank;
+    hull_.point_count = points_.rows;
+    hull_.interior_point = frame_.centre;
+    hull_.reference = frame_.centre;
+    hull_.length_unit_ = LengthUnit(frame_, options_.unit_cube);
+    hull_.chosen.objective = options_.accuracy.objective;
+    if (frame_.rank == 0) hull_.vertices.push_back(PointId{0});
+    hull_.subspace_equations = find_subspace_equations(frame_);
+  }
+
+  /// Grows as far as the accuracy asks for and finds the facets.
+  void approximate(const std::vector<double>& factor) {
+    const Clock::time_point begin = Clock::now();
+    const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
+    constexpr double kLongest = 1e36;  // depths are kept in single precision
+    const Accuracy& accuracy = options_.accuracy;
+    const bool gathers = accuracy.facets > 0 || lengths.width > 0.0 || accuracy.merges_neighbours();
+    if (gathers && !(lengths.largest_extent < kLongest)) {
+      throw Error(
+          ErrorCode::kNotFinite,
+          "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
+          "coordinates by a power of two, or measure widths in the unit cube");
+    }
+    check_squares(lengths.largest_extent);
+    Approximation approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_);
+    clusters_ = approximation.run();
+    star_hull_ = std::move(approximation.star_hull());
+    seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
+  }
+
+  /// Squares and products of lengths must be doubles.
+  static void check_squares(double largest_extent) {
+    constexpr double kShortest = 1e-140, kLongest = 1e140;
+    if (largest_extent > kShortest && largest_extent < kLongest) return;
+    const bool is_small = largest_extent <= kShortest;
+    throw Error(ErrorCode::kOutOfRange,
+                std::string("points: found an extent ") + (is_small ? "below 1e-140" : "above 1e140") +
+                    ", expected " + (is_small ? "more" : "less") + " where facets are to be fewer; " +
+                    (is_small ? "multiply" : "divide") +
+                    " the coordinates by a power of two, or measure widths in the unit cube");
+  }
+
+  void merge() {
+    const Clock::time_point start = Clock::now();
+    determinants_ = HugeArray<double>(complex().row_count);
+    const std::span<double> determinants(determinants_.data(), complex().row_count);
+    const std::vector<std::uint8_t> is_shifted = find_shifted(growth_->work());
+    if (frame_.rank >= 2) {
+      solve_outwards(complex(), growth_->coordinates(), is_shifted, determinants);
+    } else {
+      for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / complex().planes[row]);
+    }
+    detail("volumes", start);
+    const Clock::time_point merge_start = Clock::now();
+    hull_.is_approximate = clusters_.count > 0;
+    // Without a shifted point every decision was clearer than the shift: all ridges are convex. Who asks for
+    // a number of facets gets no simplices instead.
+    const bool may_merge = !options_.triangulate || options_.accuracy.facets > 0;
+    if (!hull_.is_approximate && !is_shifted.empty() && may_merge) {
+      clusters_ = merge_coplanar(complex(), growth_->coordinates(), is_shifted, determinants,
+                                 kShiftsInPlane * growth_->work().options.shift);
+    }
+    if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);
+    hull_.layout_ = lay_out(complex(), determinants, clusters_, gradient_factor(frame_, LengthUnit()));
+    detail("coplanar merging", merge_start);
+  }
+
+  /// Fewer facets than the exact ones, if fewer were asked for.
+  void choose_for_volume(std::span<const double> determinants) {
+    check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
+    constexpr double kShare = 0.6;  // of the limit; simplices and the facet table come after it
+    const WorkEnd end(kShare * options_.limits.max_seconds, options_.stop, start_);
+    std::optional<VolumeCover> few =
+        cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
+                         gradient_factor(frame_, hull_.length_unit_), end);
+    if (!few) return;
+    if (few->is_cut_short && hull_.status == HullStatus::kComplete)
+      hull_.status = end.is_late() ? HullStatus::kTimeLimit : HullStatus::kInterrupted;
+    is_bounded_ = few->is_bounded;
+    clusters_ = std::move(few->clusters);
+    hull_.is_approximate = true;
+  }
+
+  /// So few of the exact hull's planes bound no region; others do.
+  Hull for_width_instead() {
+    growth_.reset();
+    HullOptions options = options_;
+    options.accuracy.objective = FacetObjective::kWidth;
+    return HullBuilder(points_, options, start_, input_bytes_).run();
+  }
+
+  std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }
+
+  /// Rank 1 has no growth.
+  void make_segment() {
+    const double* coordinates = growth_->coordinates();
+    complex() = SimplicialComplex(1, 2);
+    complex().row_count = 2;
+    const double* const ends[2] = {std::min_element(coordinates, coordinates + points_.rows),
+                                   std::max_element(coordinates, coordinates + points_.rows)};
+    for (std::uint32_t row = 0; row < 2; ++row) {
+      complex().topology[2 * row] = static_cast<std::uint32_t>(ends[row] - coordinates);
+      complex().topology[2 * row + 1] = 1 - row;
+      complex().planes[row] = 1.0 / *ends[row];
+      complex().state[row] = SimplexState::kLive;
+    }
+    growth_->want_all();
+  }
+
+  /// The exact hull by simplices, or by whole facets where that is less work: then the hull is complete, and
+  /// true is returned.
+  bool grow_or_describe() {
+    const bool may_describe = options_.accuracy.is_exact() && !options_.triangulate &&
+                              !options_.wants_simplices && options_.shift >= HullOptions().shift &&
+                              points_.rows <= HullDescription::kMostPoints && frame_.rank > 2;
+    if (!may_describe) return growth_->grow_exactly({});
+    std::optional<HullDescription> description;
+    // About as long as growth has taken so far; a second at most, for those who wait for an end.
+    constexpr std::uint64_t kWorkPerSimplex = 250, kMostWork = std::uint64_t{1} << 28;
+    const Limits& limits = options_.limits;
+    // At most 8 bytes for each step, a 64th of what is allowed; the same for the facets.
+    const std::uint64_t most_words = limits.max_memory_bytes == 0 ? kMostWork : limits.max_memory_bytes / 512;
+    const auto find = [&](std::uint64_t simplices) {
+      if (limits.max_seconds > 0.0 && 4.0 * seconds_since(start_) > limits.max_seconds) return false;
+      if (!description) description.emplace(growth_->coordinates(), points_.rows, frame_, most_words);
+      return description->advance(std::min({kMostWork, most_words, kWorkPerSimplex * simplices})) &&
+             (limits.max_facets == 0 || description->simplex_count() <= limits.max_facets);
+    };
+    if (!growth_->grow_exactly(find)) return false;
+    const Clock::time_point start = Clock::now();
+    hull_.statistics.created_facets = description->created_facets();
+    adopt(description->take());
+    seconds(Phase::kMerge) += seconds_since(start);
+    return true;
+  }
+
+  void adopt(DescribedHull found) {
+    const std::size_t rank = frame_.rank;
+    hull_.vertices = std::move(found.vertices);
+    complex() = SimplicialComplex(rank, found.facets);
+    complex().row_count = found.facets;
+    std::copy(found.planes.begin(), found.planes.end(), complex().planes.data());
+    determinants_ = HugeArray<double>(found.facets);
+    std::copy(found.determinants.begin(), found.determinants.end(), determinants_.data());
+    hull_.layout_.facets = found.facets;
+    for (std::size_t facet = 0; facet < found.facets; ++facet)
+      for (std::size_t k = 0; k < rank; ++k)
+        hull_.layout_.area_vectors.push_back(found.determinants[facet] * found.planes[facet * rank + k]);
+    growth_->want_all();
+    certify_facets(KnownHighest(), &found.facet_vertices);
+    hull_.layout_.simplicial = found.simplicial;
+    hull_.lists_->lists = {std::move(found.facet_vertices), std::move(found.neighbours)};
+    std::call_once(hull_.lists_->made, [] {});
+    const auto& values = hull_.lists_->lists.vertices.values;
+    hull_.later_ = std::make_unique<PulledSimplices>(
+        std::move(found.faces),
+        std::vector<std::uint32_t>(values.begin(),
+                                   values.begin() + static_cast<std::ptrdiff_t>(rank * found.simplicial)));
+    for (std::uint32_t facet = 0; facet < found.facets; ++facet)
+      hull_.simplex_count_ += hull_.later_->count_of(FacetId{facet});
+  }
+
+  /// A hull that was found without its complex.
+  void adopt(StarHull found) {
+    const Clock::time_point start = Clock::now();
+    const std::size_t rank = frame_.rank, facets = found.facets.count();
+    const auto fill = [](const std::vector<double>& from, HugeArray<double>& to) {
+      std::copy(from.begin(), from.end(), to.data());
+    };
+    std::vector<double> coordinates;
+    std::vector<std::uint32_t> ids;
+    for (const PointId vertex : found.vertices) {
+      const double* y = growth_->coordinates() + std::size_t{vertex.value} * rank;
+      coordinates.insert(coordinates.end(), y, y + rank);
+      ids.push_back(vertex.value);
+    }
+    // Beside the plane that is nearest to the centre all planes are within the distance of all points.
+    std::vector<PointId> points = growth_->left_out_points(true);
+    growth_->certify_by_search(points, found.distance / found.facets.least_distance, KnownHighest());
+    complex() = SimplicialComplex(rank, facets);
+    complex().row_count = facets;
+    fill(found.facets.planes, complex().planes);
+    determinants_ = HugeArray<double>(facets);
+    fill(found.facets.determinants, determinants_);
+    hull_.is_approximate = true;
+    hull_.layout_.facets = facets;
+    hull_.layout_.area_vectors = std::move(found.facets.area_vectors);
+    hull_.layout_.merged_surface =
+        std::accumulate(found.facets.surfaces.begin(), found.facets.surfaces.end(), 0.0);
+    hull_.layout_.surface_exponent = found.surface_exponent;
+    IdRows vertices = found.facets.vertices;
+    for (std::uint32_t& vertex : vertices.values) vertex = ids[vertex];
+    certify_facets(KnownHighest(), &vertices);
+    hull_.layout_.simplicial = found.facets.simplicial;
+    hull_.vertices = std::move(found.vertices);
+    std::sort(hull_.vertices.begin(), hull_.vertices.end());
+    hull_.simplex_count_ = found.simplices;
+    hull_.later_ = std::make_unique<RegrownSimplices>(
+        rank, std::move(coordinates), std::move(ids), std::move(found.facets.vertices),
+        std::move(found.facets.sizes), std::move(found.facets.turns));
+    seconds(Phase::kMerge) += seconds_since(start);
+  }
+
+  void make_facets(const KnownHighest& known) {
+    const Clock::time_point start = Clock::now();
+    // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
+    is_vertex_ = hull_.is_approximate ? corners() : find_vertices(complex(), hull_.layout_, points_.rows);
+    for (std::uint32_t id = 0; id < points_.rows; ++id) {
+      if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
+    }
+    growth_->choose_certificate_points(hull_.layout_.facets);
+    const bool proves_nothing = is_roughly_flat(points_, frame_);
+    if (proves_nothing) growth_->want_all();
+    detail("vertices", start);
+    certify_facets(proves_nothing ? KnownHighest() : known, nullptr);
+    hull_.simplex_count_ = complex().row_count;
+    hull_.simplices_ = std::move(complex());
+  }
+
+  void certify_facets(const KnownHighest& known, const IdRows* merged_vertices) {
+    const Clock::time_point start = Clock::now();
+    const bool is_known = !known.highest.empty();
+    const CertificatePoints certificate = gather_certificate_points(
+        points_, frame_, is_known ? corners() : growth_->certificate_wanted(), is_known);
+    hull_.reference = certificate.reference;
+    growth_->release_coordinates();
+    FacetTable table = make_facet_table(
+        complex(), hull_.layout_, frame_, certificate, std::move(determinants_), hull_.length_unit_,
+        growth_->covered_points(), known, options_.certifies_planes, merged_vertices);
+    detail("facet table", start);
+    hull_.normals_ = std::move(table.normals);
+    hull_.centred_offsets_ = std::move(table.offsets);
+    hull_.outer_ = std::move(table.outer);
+    hull_.inner_ = std::move(table.inner);
+    hull_.areas_ = std::move(table.areas);
+    hull_.max_outer_offset = table.max_outer;
+    hull_.min_inner_offset = table.min_inner;
+    hull_.max_facet_width = table.max_width;
+    hull_.roundoff = table.roundoff;
+    hull_.area = hull_.is_approximate ? table.surface : table.area;
+    hull_.volume = table.volume;
+  }
+
+  const PointView& points_;
+  const HullOptions& options_;
+  Clock::time_point start_;
+  double input_bytes_;
+  Hull hull_;
+  Frame frame_;
+  std::optional<CertifiedGrowth> growth_;
+  bool is_bounded_ = true;  // by the planes that were chosen for volume
+  std::optional<StarHull> star_hull_;
+  FacetClusters clusters_;  // of an approximate hull; none: coplanar simplices are merged
+  HugeArray<double> determinants_;
+  std::vector<bool> is_vertex_;
+};
+
+Hull build_hull(const PointView& points, const HullOptions& options, Clock::time_point start,
+                double input_bytes) {
+  return HullBuilder(points, options, start, input_bytes).run();
+}
+
+void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
+  HullBuilder::rename_points(hull, ids, point_count);
+}
+
+}  // namespace ndhull

@@ -1,0 +1,14 @@
+// The hull of points that are all looked at: steps 1 to 5 of the driver (convex_hull.cpp).
+#pragma once
+
+#include "approx/hull.h"
+#include "core/points.h"
+#include "core/stopwatch.h"
+
+namespace ndhull {
+
+/// `start`: of the whole call. `input_bytes`: of the input that these points were kept of, or are.
+Hull build_hull(const PointView& points, const HullOptions& options, Clock::time_point start,
+                double input_bytes);
+
+}  // namespace ndhull

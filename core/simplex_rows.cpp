@@ -1,0 +1,34 @@
+#include "core/simplex_rows.h"
+
+#include <algorithm>
+
+namespace ndhull {
+
+void SimplexRows::set_part(std::uint32_t first, std::vector<std::uint16_t> others) {
+  const std::size_t width = rank_ - 1;
+  Part& part = parts_[first];
+  part.others = std::move(others);
+  part.others.shrink_to_fit();
+  const auto rows = static_cast<std::uint32_t>(part.others.size() / width);
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    const std::uint32_t second = part.others[row * width];
+    if (part.runs.empty() || part.runs.back().second != second) part.runs.push_back({second, row});
+  }
+  part.runs.push_back({static_cast<std::uint32_t>(kMostVertices), rows});
+  part.runs.shrink_to_fit();
+}
+
+void SimplexRows::number() {
+  for (std::size_t first = 0; first < parts_.size(); ++first)
+    begin_[first + 1] = begin_[first] + static_cast<std::uint32_t>(parts_[first].others.size() / (rank_ - 1));
+}
+
+void SimplexRows::vertices_of(std::uint32_t row, std::uint32_t* vertices) const {
+  const auto after = std::upper_bound(begin_.begin(), begin_.end(), row);
+  const auto first = static_cast<std::size_t>(after - begin_.begin() - 1);
+  vertices[0] = static_cast<std::uint32_t>(first);
+  const std::uint16_t* const others = parts_[first].others.data() + (row - begin_[first]) * (rank_ - 1);
+  std::copy_n(others, rank_ - 1, vertices + 1);
+}
+
+}  // namespace ndhull
