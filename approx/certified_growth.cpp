@@ -76,11 +76,11 @@ void CertifiedGrowth::record_progress(std::uint64_t points_left, double furthest
   curve.push_back({seconds_since(start_), simplices, points_left, furthest});
 }
 
-void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthest) const {
+void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthest, std::uint64_t simplices,
+                           std::uint64_t more_bytes) const {
   if (!options_.progress) return;
-  const std::uint64_t bytes = work_.complex.row_count * (16 * frame_.rank + 9) + point_bytes();
-  options_.progress({phase, points_left, work_.complex.row_count - work_.free_count, furthest,
-                     seconds_since(start_), bytes});
+  const std::uint64_t bytes = work_.complex.row_count * (16 * frame_.rank + 9) + point_bytes() + more_bytes;
+  options_.progress({phase, points_left, simplices, furthest, seconds_since(start_), bytes});
 }
 
 /// Coordinates, outside sets, flags, and what a proof lists of each point.

@@ -96,6 +96,11 @@ class CertifiedGrowth {
   KnownHighest take_known_highest() { return std::move(known_highest_); }
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
+  /// Progress, from the calling thread: `more_bytes` beside the complex and the points.
+  void tell(Phase phase, std::uint64_t points_left, double furthest, std::uint64_t simplices,
+            std::uint64_t more_bytes) const;
+  /// A finer clock, for the report.
+  void detail(std::string_view name, Clock::time_point since);
   void release_coordinates() { coordinates_ = HugeArray<double>(); }
 
  private:
@@ -107,7 +112,9 @@ class CertifiedGrowth {
   GrowthStop poll(std::uint64_t points_left, double furthest);
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
   std::uint64_t point_bytes() const;
-  void tell(Phase phase, std::uint64_t points_left, double furthest) const;
+  void tell(Phase phase, std::uint64_t points_left, double furthest) const {
+    tell(phase, points_left, furthest, work_.complex.row_count - work_.free_count, 0);
+  }
   GrowthStop grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise);
   void grow_before_placing();
   bool holds_some_waiting();
@@ -118,7 +125,6 @@ class CertifiedGrowth {
   bool repair(const std::vector<LocatedPoint>& located);
   void list_left_out(const std::vector<LocatedPoint>& located);
   double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
-  void detail(std::string_view name, Clock::time_point since);
 
   const PointView& points_;
   const Frame& frame_;

@@ -88,6 +88,18 @@ class Chooser {
     }
   }
 
+  /// Looks at all again that may be nearer by now.
+  void measure_all() {
+    constexpr std::size_t kAtATime = 16;
+    for_each_block(vertices_.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row != end; ++row) {
+        HullDistance& known = found_[row];
+        if (known.places.empty() || known.upper <= vertex_rounding()) continue;
+        known = hull_distance(kept_, columns_.col(static_cast<Index>(row)), std::move(known));
+      }
+    });
+  }
+
   const HullDistance& distance(std::size_t vertex) const { return found_[vertex]; }
   std::vector<double> distances() const {
     std::vector<double> distances(found_.size());
@@ -144,6 +156,7 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
                        std::to_string(last_distance));
     }
   }
+  if (options.measures_left) chooser.measure_all();
   result.left = chooser.distances();
   return result;
 }

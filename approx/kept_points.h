@@ -28,7 +28,8 @@ struct KeptPoints {
 struct KeepOptions {
   std::size_t count = 100;  ///< vertices wanted, at least 1
   std::size_t given = 0;    ///< so many of the vertices, the first ones, are kept from the beginning
-  double enough = 0.0;      ///< [distance] none further from the hull than this is looked at, or kept
+  double enough = 0.0;      ///< [distance] none nearer to the hull than this is looked at again, or kept
+  bool measures_left = false;  ///< KeptPoints::left are those of the final hull, no larger than they must be
   std::stop_token stop = {};
   std::function<void(std::string_view)> progress = {};  ///< called from the calling thread
 };

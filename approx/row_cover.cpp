@@ -56,7 +56,8 @@ template <std::size_t D>
 class RowCover {
  public:
   RowCover(const SimplexRows& rows, const WidthSpace& space, const double* coordinates,
-           std::span<const double> area_factor, double width, const std::function<bool()>& gives_up)
+           std::span<const double> area_factor, double width,
+           const std::function<bool(std::uint64_t)>& gives_up)
       : rows_(rows),
         space_(space),
         length_of_(space.gradient_factor()),
@@ -190,7 +191,7 @@ class RowCover {
           if (lane.seed < lane.end) chosen.push_back(&lane);
         }
         if (chosen.empty()) break;
-        if (gives_up_ && gives_up_()) return false;
+        if (gives_up_ && gives_up_(rows_.count() - taken_)) return false;
         find_slabs(chosen);
         for (Lane* const lane : chosen)
           if (!take(*lane, least)) return false;
@@ -212,6 +213,7 @@ class RowCover {
       return true;
     }
     for (const std::uint32_t row : lane.held) state_[row] = kTaken;
+    taken_ += lane.held.size();
     lane.facet = static_cast<std::uint32_t>(facets_.count());
     facets_.sizes.push_back(static_cast<std::uint32_t>(lane.held.size()));
     facets_.turns.push_back(lane.facet);
@@ -283,8 +285,9 @@ class RowCover {
   const WidthSpace& space_;
   GradientLength<D> length_of_, area_of_;
   double width_;
-  const std::function<bool()>& gives_up_;
+  const std::function<bool(std::uint64_t)>& gives_up_;
   std::vector<std::uint8_t> state_;  // per row
+  std::uint64_t taken_ = 0;
   SimplicialComplex seeds_;          // of the slabs that are being found
   SlabGrower grower_;
   tbb::enumerable_thread_specific<Scratch> scratch_of_thread_;
@@ -296,7 +299,8 @@ class RowCover {
 
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width, const std::function<bool()>& gives_up) {
+                                    double width,
+                                    const std::function<bool(std::uint64_t)>& gives_up) {
   return call_with_dimension<3, kMaxRank>(rows.rank(), [&](auto d) {
     return RowCover<d>(rows, space, coordinates, area_factor, width, gives_up).run();
   });

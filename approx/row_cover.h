@@ -39,11 +39,13 @@ struct RowFacets {
 ///
 /// Shapes  space: its first rows are the vertices as `rows` numbers them. coordinates: points x rank, in the
 ///         frame. area_factor: rank x rank, R of RowFacets::surfaces.
-/// Returns nothing when a simplex alone is wider, or `gives_up` says so; it is asked now and then.
+/// Returns nothing when a simplex alone is wider, or `gives_up` says so; it is asked now and then, from the
+///         calling thread, and told how many simplices are in no facet yet.
 /// Cost    for each slab tried a few products of a direction with the vertices, and searches in the space; a
 ///         linear system for each simplex, twice. A byte a simplex, besides the rows.
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width, const std::function<bool()>& gives_up);
+                                    double width,
+                                    const std::function<bool(std::uint64_t)>& gives_up);
 
 }  // namespace ndhull

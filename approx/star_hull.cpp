@@ -3,13 +3,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <thread>
 
 #include "approx/hull_distance.h"
 #include "approx/kept_points.h"
 #include "approx/width_space.h"
 #include "core/blocks.h"
 #include "core/ids.h"
+#include "core/stopwatch.h"
 #include "core/vertex_stars.h"
 
 namespace ndhull {
@@ -17,9 +18,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Points left out are less than this part of the width outside. On 10^7 gaussian points in 8-d 0.85 takes
-/// 10.9 million simplices for 87,000 facets, 0.99 8.3 million for 113,000.
-constexpr double kShareLeftOut = 0.9;
 /// A vertex that is nearer than this to the hull of the others is left out too: seen from it, others would
 /// lie in directions that rounding decides. [ratio of the size]
 constexpr double kClearVertex = 1e-7;
@@ -72,6 +70,7 @@ std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double en
                                       {.count = SimplexRows::kMostVertices,
                                        .given = space.vertex_count(),
                                        .enough = enough,
+                                       .measures_left = true,
                                        .stop = std::move(stop)});
   ChosenVertices chosen;
   chosen.distance = *std::max_element(kept.left.begin(), kept.left.end());
@@ -119,7 +118,7 @@ std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double en
 }  // namespace
 
 std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const double> factor,
-                                       std::span<const double> area_factor, double width) {
+                                       std::span<const double> area_factor, double width, double enough) {
   const GrowthWork& work = growth.work();
   if (work.rank < 3 || !work.shifted_points.empty()) return std::nullopt;
   const std::vector<double> own_factor(factor.begin(), factor.end());
@@ -127,6 +126,11 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
     return WidthSpace(work.rank, own_factor, growth.coordinates(), work.point_count, vertices, others);
   };
   growth.locate_left_out(width);
+  Clock::time_point begin = Clock::now();
+  const auto lap = [&](std::string_view name) {
+    growth.detail(name, begin);
+    begin = Clock::now();
+  };
   StarHull hull;
   std::vector<double> normals;
   std::vector<PointId> others;
@@ -134,7 +138,7 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
     std::vector<PointId> outside;
     for (const LocatedPoint& point : growth.left_out()) outside.push_back(point.point);
     const WidthSpace first = make_space(corners_of(growth, work.complex), outside);
-    std::optional<ChosenVertices> chosen = choose_vertices(first, kShareLeftOut * width, growth.options().stop);
+    std::optional<ChosenVertices> chosen = choose_vertices(first, enough, growth.options().stop);
     if (!chosen) return std::nullopt;
     for (const std::uint32_t row : chosen->rows) hull.vertices.push_back(first.point_of(row));
     for (const std::uint32_t row : chosen->others) others.push_back(first.point_of(row));
@@ -142,15 +146,29 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
     hull.distance = chosen->distance;
   }
   const WidthSpace space = make_space(hull.vertices, others);
+  lap("choosing vertices");
   StarOptions options;
   options.most_rows = growth.most_star_rows();
-  options.gives_up = [&](std::size_t, std::uint64_t) { return growth.options().stop.stop_requested(); };
+  const std::stop_token& stop = growth.options().stop;
+  const auto bytes_of = [&](std::uint64_t simplices) { return simplices * 2 * (work.rank - 1); };
+  const std::thread::id caller = std::this_thread::get_id();
+  options.gives_up = [&](std::size_t stars, std::uint64_t simplices) {
+    if (std::this_thread::get_id() == caller)
+      growth.tell(Phase::kGrowth, hull.vertices.size() - stars, hull.distance, simplices, bytes_of(simplices));
+    return stop.stop_requested();
+  };
   const std::optional<SimplexRows> rows =
       grow_stars(work.rank, {space.row(0), hull.vertices.size() * work.rank}, normals, options);
+  lap("stars");
   if (!rows) return std::nullopt;
   hull.simplices = rows->count();
-  std::optional<RowFacets> facets = cover_rows(*rows, space, growth.coordinates(), area_factor, width,
-                                               [&] { return growth.options().stop.stop_requested(); });
+  const auto gives_up = [&](std::uint64_t simplices_left) {
+    growth.tell(Phase::kMerge, 0, hull.distance, simplices_left, bytes_of(hull.simplices));
+    return stop.stop_requested();
+  };
+  std::optional<RowFacets> facets =
+      cover_rows(*rows, space, growth.coordinates(), area_factor, width, gives_up);
+  lap("slabs of rows");
   if (!facets || facets->count() <= kManyFacets) return std::nullopt;
   hull.facets = std::move(*facets);
   return hull;

@@ -116,11 +116,12 @@ bool Approximation::find_stars(double outside_width, double slab) {
   const double fall = growth_.furthest_height() / (kGrowthShareOfHuge * slab);
   const double rows = static_cast<double>(enough) * std::pow(std::max(1.0, fall), (rank - 1.0) / 3.0);
   const double bytes = rows * (16.0 * rank + 5.0);
-  const bool is_too_large = input_bytes_ >= kLargeInput &&
-                            bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
+  const bool is_too_large =
+      input_bytes_ >= kLargeInput && bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
   if (!is_too_large && (most_rows == 0 || rows < static_cast<double>(most_rows))) return false;
+  const double share = rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
-  star_hull_ = find_star_hull(growth_, factor_, area.factor, slab);
+  star_hull_ = find_star_hull(growth_, factor_, area.factor, slab, share * slab);
   if (!star_hull_) return false;
   star_hull_->surface_exponent = area.exponent;
   hull_.chosen.outside_width = star_hull_->distance;
