@@ -319,6 +319,7 @@ FacetClusters Approximation::run_width() {
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
     grow_for_width(outside_width, slab);
+    if (goes_on_with_stars(slab)) return FacetClusters{};
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);

@@ -100,6 +100,8 @@ class Approximation {
   void grow_for_width(double outside_width, double slab);
   bool may_do_without_complex() const;
   bool find_stars(double outside_width, double slab);
+  bool take_star_hull(double slab, double rows);
+  bool goes_on_with_stars(double slab);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();

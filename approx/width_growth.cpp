@@ -111,22 +111,37 @@ bool Approximation::find_stars(double outside_width, double slab) {
   const std::uint64_t enough =
       most_rows == 0 ? kRowsBeforeStars : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
   if (growth_.grow_to(outside_width, enough, HUGE_VAL) || growth_.is_limited()) return false;
-  // Heights fall about so fast as simplices become more: 5-d to 9-d spheres, balls and gaussian points.
-  const double rank = static_cast<double>(growth_.frame().rank);
-  const double fall = growth_.furthest_height() / (kGrowthShareOfHuge * slab);
-  const double rows = static_cast<double>(enough) * std::pow(std::max(1.0, fall), (rank - 1.0) / 3.0);
-  const double bytes = rows * (16.0 * rank + 5.0);
+  // Heights fall about so fast as simplices become more: with the exponent (rank - 1) / 2 on spheres, two
+  // thirds of it on balls and gaussian points. Where memory is limited the larger number counts.
+  const double half_rank = 0.5 * static_cast<double>(growth_.frame().rank - 1);
+  const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab));
+  const double most = static_cast<double>(enough) * std::pow(fall, half_rank);
+  const double rows = static_cast<double>(enough) * std::pow(fall, 2.0 / 3.0 * half_rank);
+  const double bytes = rows * (16.0 * static_cast<double>(growth_.frame().rank) + 5.0);
   const bool is_too_large =
       input_bytes_ >= kLargeInput && bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
-  if (!is_too_large && (most_rows == 0 || rows < static_cast<double>(most_rows))) return false;
+  if (!is_too_large && (most_rows == 0 || most < static_cast<double>(most_rows))) return false;
+  return take_star_hull(slab, rows);
+}
+
+/// Goes on without the complex. `rows`: simplices that the hull will about have.
+bool Approximation::take_star_hull(double slab, double rows) {
   const double share = rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
   star_hull_ = find_star_hull(growth_, factor_, area.factor, slab, share * slab);
   if (!star_hull_) return false;
+  hull_.status = HullStatus::kComplete;
   star_hull_->surface_exponent = area.exponent;
   hull_.chosen.outside_width = star_hull_->distance;
   hull_.chosen.slab_width = slab;
   return true;
+}
+
+/// What growth that memory ended could not have: rows of vertices alone may still fit.
+bool Approximation::goes_on_with_stars(double slab) {
+  if (hull_.status != HullStatus::kMemoryLimit || !may_do_without_complex()) return false;
+  const GrowthWork& work = growth_.work();
+  return take_star_hull(slab, static_cast<double>(work.complex.row_count - work.free_count));
 }
 
 }  // namespace ndhull
