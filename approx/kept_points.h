@@ -21,14 +21,15 @@ struct KeptPoints {
   std::vector<PointId> points;
   std::vector<double> distances;  ///< [distance, input units] proven, roundoff included; none rises
   double lower = 0.0;  ///< [distance] proven: some input point is at least so far from the final hull
-  /// [distance] of each of the vertices given, proven: no further from the final hull. Those that are kept: 0.
+  /// [distance] of each of the vertices given, proven: no further from the final hull. Those that are kept:
+  /// 0.
   std::vector<double> left;
 };
 
 struct KeepOptions {
-  std::size_t count = 100;  ///< vertices wanted, at least 1
-  std::size_t given = 0;    ///< so many of the vertices, the first ones, are kept from the beginning
-  double enough = 0.0;      ///< [distance] none nearer to the hull than this is looked at again, or kept
+  std::size_t count = 100;     ///< vertices wanted, at least 1
+  std::size_t given = 0;       ///< so many of the vertices, the first ones, are kept from the beginning
+  double enough = 0.0;         ///< [distance] none nearer to the hull than this is looked at again, or kept
   bool measures_left = false;  ///< KeptPoints::left are those of the final hull, no larger than they must be
   std::stop_token stop = {};
   std::function<void(std::string_view)> progress = {};  ///< called from the calling thread

@@ -55,8 +55,8 @@ NumberedRows sort_rows(const SimplicialComplex& complex, std::size_t vertex_coun
 /// Each facet, in its turn, takes what its vertices span and no facet has: that is how it got its simplices.
 std::vector<std::uint32_t> RegrownSimplices::facets_of_rows(const SimplicialComplex& complex) const {
   const std::size_t vertex_count = ids_.size();
-  const NumberedRows sorted = call_with_dimension<3, kMaxRank>(
-      rank_, [&](auto d) { return sort_rows<d>(complex, vertex_count); });
+  const NumberedRows sorted =
+      call_with_dimension<3, kMaxRank>(rank_, [&](auto d) { return sort_rows<d>(complex, vertex_count); });
   std::vector<std::uint32_t> facet_of(complex.row_count, kNone), facet_at(turns_.size());
   for (std::uint32_t facet = 0; facet < turns_.size(); ++facet) facet_at[turns_[facet]] = facet;
   std::vector<std::uint8_t> is_among(vertex_count);

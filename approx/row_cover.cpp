@@ -67,7 +67,7 @@ class RowCover {
         state_(rows.count()),
         seeds_(D, kLanes),
         grower_(seeds_, space, nullptr, false),
-        scratch_of_thread_([&] { return Scratch(space, rows.vertex_count()); }) {
+        scratch_of_thread_([&] { return RowScratch(space, rows.vertex_count()); }) {
     vertices_.resize(rows.vertex_count() * D);
     for (std::uint32_t vertex = 0; vertex < rows.vertex_count(); ++vertex) {
       const double* y = coordinates + std::size_t{space.point_of(vertex).value} * D;
@@ -86,8 +86,8 @@ class RowCover {
 
  private:
   using Plane = std::array<double, D>;
-  struct Scratch {
-    Scratch(const WidthSpace& space, std::size_t vertex_count) : slabs(space), is_among(vertex_count) {}
+  struct RowScratch {
+    RowScratch(const WidthSpace& space, std::size_t vertex_count) : slabs(space), is_among(vertex_count) {}
     SlabScratch slabs;
     std::vector<std::uint8_t> is_among;
   };
@@ -124,7 +124,8 @@ class RowCover {
         solve(static_cast<std::uint32_t>(row), plane);
         const double distance = 1.0 / length_of_(plane.data());
         least[begin / kRowsSolved] = std::min(least[begin / kRowsSolved], distance);
-        state_[row] = static_cast<std::uint8_t>(std::min(kRowClasses - 1.0, kRowClasses * distance / longest));
+        state_[row] =
+            static_cast<std::uint8_t>(std::min(kRowClasses - 1.0, kRowClasses * distance / longest));
       }
     });
     facets_.least_distance = *std::min_element(least.begin(), least.end());
@@ -142,7 +143,7 @@ class RowCover {
       lanes[i]->slab.seed = static_cast<std::uint32_t>(i);
     }
     for_each_block(lanes.size(), 1, [&](std::size_t i, std::size_t) {
-      Scratch& scratch = scratch_of_thread_.local();
+      RowScratch& scratch = scratch_of_thread_.local();
       Lane& lane = *lanes[i];
       grower_.find_vertices_of(lane.slab, width_, CoverEffort(), scratch.slabs);
       std::vector<std::uint32_t>& vertices = lane.slab.vertices;
@@ -258,9 +259,8 @@ class RowCover {
   /// Facets of one simplex first.
   void put_in_order() {
     std::vector<std::uint32_t> order = facets_.turns;
-    const auto merged = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t facet) {
-      return facets_.sizes[facet] == 1;
-    });
+    const auto merged = std::stable_partition(order.begin(), order.end(),
+                                              [&](std::uint32_t facet) { return facets_.sizes[facet] == 1; });
     RowFacets sorted;
     sorted.simplicial = static_cast<std::size_t>(merged - order.begin());
     sorted.least_distance = facets_.least_distance;
@@ -288,9 +288,9 @@ class RowCover {
   const std::function<bool(std::uint64_t)>& gives_up_;
   std::vector<std::uint8_t> state_;  // per row
   std::uint64_t taken_ = 0;
-  SimplicialComplex seeds_;          // of the slabs that are being found
+  SimplicialComplex seeds_;  // of the slabs that are being found
   SlabGrower grower_;
-  tbb::enumerable_thread_specific<Scratch> scratch_of_thread_;
+  tbb::enumerable_thread_specific<RowScratch> scratch_of_thread_;
   std::vector<double> vertices_;  // in the frame
   RowFacets facets_;
 };
@@ -299,8 +299,7 @@ class RowCover {
 
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width,
-                                    const std::function<bool(std::uint64_t)>& gives_up) {
+                                    double width, const std::function<bool(std::uint64_t)>& gives_up) {
   return call_with_dimension<3, kMaxRank>(rows.rank(), [&](auto d) {
     return RowCover<d>(rows, space, coordinates, area_factor, width, gives_up).run();
   });

@@ -23,15 +23,15 @@ namespace ndhull {
 
 /// Facets that together are all simplices, each one in one of them.
 struct RowFacets {
-  std::size_t simplicial = 0;            ///< so many come first: those of one simplex
-  std::vector<double> planes;            ///< facets x rank, dual planes in the frame
-  std::vector<double> determinants;      ///< of each the sum over its simplices' vertex rows, > 0
-  std::vector<double> area_vectors;      ///< facets x rank: the sum of determinant times plane
-  std::vector<double> surfaces;          ///< the sum of determinant times |R plane|
-  std::vector<std::uint32_t> sizes;      ///< simplices of each
-  std::vector<std::uint32_t> turns;      ///< in which order facets took their simplices
-  IdRows vertices;                       ///< of each, numbers of vertices, ascending
-  double least_distance = 0.0;           ///< [distance] no simplex' plane is nearer to the centre
+  std::size_t simplicial = 0;        ///< so many come first: those of one simplex
+  std::vector<double> planes;        ///< facets x rank, dual planes in the frame
+  std::vector<double> determinants;  ///< of each the sum over its simplices' vertex rows, > 0
+  std::vector<double> area_vectors;  ///< facets x rank: the sum of determinant times plane
+  std::vector<double> surfaces;      ///< the sum of determinant times |R plane|
+  std::vector<std::uint32_t> sizes;  ///< simplices of each
+  std::vector<std::uint32_t> turns;  ///< in which order facets took their simplices
+  IdRows vertices;                   ///< of each, numbers of vertices, ascending
+  double least_distance = 0.0;       ///< [distance] no simplex' plane is nearer to the centre
   std::size_t count() const { return sizes.size(); }
 };
 
@@ -45,7 +45,6 @@ struct RowFacets {
 ///         linear system for each simplex, twice. A byte a simplex, besides the rows.
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width,
-                                    const std::function<bool(std::uint64_t)>& gives_up);
+                                    double width, const std::function<bool(std::uint64_t)>& gives_up);
 
 }  // namespace ndhull

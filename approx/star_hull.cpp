@@ -52,7 +52,8 @@ std::vector<HullDistance> distances_from_others(const WidthSpace& space,
     Eigen::MatrixXd others = all.rightCols(all.cols() - 1);  // but for column 0
     for (std::size_t i = 0; i < end; ++i) {
       if (i >= begin) found[i] = hull_distance(others, all.col(static_cast<Index>(i)));
-      if (static_cast<Index>(i) < others.cols()) others.col(static_cast<Index>(i)) = all.col(static_cast<Index>(i));
+      if (static_cast<Index>(i) < others.cols())
+        others.col(static_cast<Index>(i)) = all.col(static_cast<Index>(i));
     }
   });
   return found;
@@ -60,8 +61,7 @@ std::vector<HullDistance> distances_from_others(const WidthSpace& space,
 
 /// Vertices until all points of the space are less than `enough` from their hull; those of the space come
 /// first. Nothing where vertices are not clearly apart.
-std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double enough,
-                                              std::stop_token stop) {
+std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double enough, std::stop_token stop) {
   const std::size_t rank = space.rank(), count = space.table().count();
   std::vector<PointId> ids(count);
   for (std::uint32_t row = 0; row < count; ++row) ids[row] = PointId{row};
@@ -154,7 +154,8 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   const std::thread::id caller = std::this_thread::get_id();
   options.gives_up = [&](std::size_t stars, std::uint64_t simplices) {
     if (std::this_thread::get_id() == caller)
-      growth.tell(Phase::kGrowth, hull.vertices.size() - stars, hull.distance, simplices, bytes_of(simplices));
+      growth.tell(Phase::kGrowth, hull.vertices.size() - stars, hull.distance, simplices,
+                  bytes_of(simplices));
     return stop.stop_requested();
   };
   const std::optional<SimplexRows> rows =

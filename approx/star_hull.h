@@ -22,7 +22,7 @@ struct StarHull {
   std::vector<PointId> vertices;  ///< as the facets number them
   RowFacets facets;
   std::uint64_t simplices = 0;
-  double distance = 0.0;  ///< [distance] proven: all points are within this of the vertices' hull
+  double distance = 0.0;     ///< [distance] proven: all points are within this of the vertices' hull
   int surface_exponent = 0;  ///< facets.surfaces times 2^surface_exponent are areas' multiples
 };
 

@@ -108,16 +108,22 @@ bool Approximation::may_do_without_complex() const {
 bool Approximation::find_stars(double outside_width, double slab) {
   const std::uint64_t most_rows = growth_.most_rows();
   if (!may_do_without_complex() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
-  const std::uint64_t enough =
-      most_rows == 0 ? kRowsBeforeStars : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
+  const std::uint64_t enough = most_rows == 0
+                                   ? kRowsBeforeStars
+                                   : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
   if (growth_.grow_to(outside_width, enough, HUGE_VAL) || growth_.is_limited()) return false;
   // Heights fall about so fast as simplices become more: with the exponent (rank - 1) / 2 on spheres, two
-  // thirds of it on balls and gaussian points. Where memory is limited the larger number counts.
-  const double half_rank = 0.5 * static_cast<double>(growth_.frame().rank - 1);
+  // thirds of it on balls and gaussian points. Where memory is limited the larger number counts. All points
+  // that are left may be vertices; then simplices rise less than with their square.
+  const GrowthWork& work = growth_.work();
+  const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
+  const double with_all =
+      static_cast<double>(enough) * std::pow(1.0 + static_cast<double>(work.points_outside) / vertices, 2.0);
+  const double half_rank = 0.5 * static_cast<double>(work.rank - 1);
   const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab));
-  const double most = static_cast<double>(enough) * std::pow(fall, half_rank);
-  const double rows = static_cast<double>(enough) * std::pow(fall, 2.0 / 3.0 * half_rank);
-  const double bytes = rows * (16.0 * static_cast<double>(growth_.frame().rank) + 5.0);
+  const double most = std::min(with_all, static_cast<double>(enough) * std::pow(fall, half_rank));
+  const double rows = std::min(with_all, static_cast<double>(enough) * std::pow(fall, 2.0 / 3.0 * half_rank));
+  const double bytes = rows * (16.0 * static_cast<double>(work.rank) + 5.0);
   const bool is_too_large =
       input_bytes_ >= kLargeInput && bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
   if (!is_too_large && (most_rows == 0 || most < static_cast<double>(most_rows))) return false;
@@ -126,7 +132,8 @@ bool Approximation::find_stars(double outside_width, double slab) {
 
 /// Goes on without the complex. `rows`: simplices that the hull will about have.
 bool Approximation::take_star_hull(double slab, double rows) {
-  const double share = rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
+  const double share =
+      rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
   star_hull_ = find_star_hull(growth_, factor_, area.factor, slab, share * slab);
   if (!star_hull_) return false;

@@ -1,4 +1,5 @@
-// Hulls without their complex, which memory limits bring about here, beside the laws of all approximate hulls.
+// Hulls without their complex, which memory limits bring about here, beside the laws of all approximate
+// hulls.
 #include <cmath>
 #include <cstring>
 
@@ -15,7 +16,7 @@ struct StarCase {
   double percent;
   std::uint64_t megabytes;
 };
-const StarCase kCases[] = {{PointFamily::kSphere, 1000, 5, 1.0, 4}, {PointFamily::kSphere, 400, 6, 3.0, 5},
+const StarCase kCases[] = {{PointFamily::kSphere, 1000, 5, 1.0, 4},   {PointFamily::kSphere, 400, 6, 3.0, 5},
                            {PointFamily::kGaussian, 3000, 7, 5.0, 9}, {PointFamily::kBall, 1000, 6, 2.0, 6},
                            {PointFamily::kEllipsoid, 300, 7, 3.0, 8}, {PointFamily::kSphere, 100, 8, 5.0, 5}};
 
@@ -34,7 +35,7 @@ bool has_stars(const Hull& hull) {
 }
 
 // What a limit on memory would have ended is complete, and as narrow as asked.
-TEST(StarHull, MeetsTheWidthWhereTheComplexWouldNotFit) {
+TEST(HullByStars, MeetsTheWidthWhereTheComplexWouldNotFit) {
   for (const StarCase& star : kCases) {
     const PointSet set = family_points(star.family, star.n, star.d, 20241101);
     SCOPED_TRACE(std::string(to_string(star.family)) + " " + std::to_string(star.d) + "-d");
@@ -49,7 +50,7 @@ TEST(StarHull, MeetsTheWidthWhereTheComplexWouldNotFit) {
 
 // Its simplices are made when they are asked for, by growth: they have the volume and the areas that were
 // summed up without them, and as many of them are in each facet.
-TEST(StarHull, ItsSimplicesAreThoseOfGrowth) {
+TEST(HullByStars, ItsSimplicesAreThoseOfGrowth) {
   for (const StarCase& star : kCases) {
     const PointSet set = family_points(star.family, star.n, star.d, 20241102);
     SCOPED_TRACE(std::string(to_string(star.family)) + " " + std::to_string(star.d) + "-d");
@@ -74,7 +75,7 @@ TEST(StarHull, ItsSimplicesAreThoseOfGrowth) {
   }
 }
 
-TEST(StarHull, IsTheSameForAnyNumberOfThreads) {
+TEST(HullByStars, IsTheSameForAnyNumberOfThreads) {
   const PointSet set = family_points(PointFamily::kGaussian, 3000, 7, 20241103);
   HullOptions options = limited(kCases[2], false);
   options.threads = 1;
@@ -94,7 +95,7 @@ TEST(StarHull, IsTheSameForAnyNumberOfThreads) {
 
 // Degenerate points, and copies closer than rounding can tell apart, are left to growth: whatever memory
 // allows is the answer.
-TEST(StarHull, LeavesDegeneratePointsToGrowth) {
+TEST(HullByStars, LeavesDegeneratePointsToGrowth) {
   PointSet twins = family_points(PointFamily::kGaussian, 400, 6, 20241104);
   const std::size_t count = twins.view().rows;
   PointSet doubled = family_points(PointFamily::kGaussian, 2 * count, 6, 1);
@@ -114,7 +115,7 @@ TEST(StarHull, LeavesDegeneratePointsToGrowth) {
 }
 
 // A stop while stars are grown gives what growth had.
-TEST(StarHull, EndsWhenItIsAskedTo) {
+TEST(HullByStars, EndsWhenItIsAskedTo) {
   const PointSet set = family_points(PointFamily::kGaussian, 3000, 7, 20241105);
   HullOptions options = limited(kCases[2], false);
   std::stop_source source;

@@ -100,7 +100,8 @@ TEST(SimplexRows, FindThoseWithinSomeVertices) {
     // The vertices of every few rows together: some simplices are within them, most others are not.
     std::set<std::uint32_t> among;
     for (std::uint32_t i = 0; i < 3; ++i)
-      for (const std::uint32_t id : row_of(*rows, static_cast<std::uint32_t>((seed * 97 + i) % rows->count())))
+      for (const std::uint32_t id :
+           row_of(*rows, static_cast<std::uint32_t>((seed * 97 + i) % rows->count())))
         among.insert(id);
     std::vector<std::uint8_t> is_among(rows->vertex_count());
     for (const std::uint32_t id : among) is_among[id] = 1;

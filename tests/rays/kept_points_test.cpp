@@ -117,5 +117,26 @@ TEST(KeepPointsExample, AllVerticesAreTheWholeHull) {
   EXPECT_EQ(kept.lower, 0.0);
 }
 
+// Goes on from vertices that are given as the whole choice would, until all others are near enough.
+TEST(KeepPointsLaw, GoesOnFromGivenVerticesUntilAllAreNear) {
+  const PointSet set = family_points(PointFamily::kSphere, 250, 5, 11);
+  const ExtremePoints extreme = extreme_points(set.view());
+  const KeptPoints all = keep_points(set.view(), extreme.vertices, extreme.interior_point, {.count = 60});
+  std::vector<PointId> reordered(all.points.begin(), all.points.begin() + 20);
+  for (const PointId id : extreme.vertices)
+    if (std::find(reordered.begin(), reordered.end(), id) == reordered.end()) reordered.push_back(id);
+  const double enough = all.distances[49];  // after 50
+  const KeptPoints kept = keep_points(set.view(), reordered, extreme.interior_point,
+                                      {.count = 1000, .given = 20, .enough = enough, .measures_left = true});
+  ASSERT_EQ(kept.points.size(), 50U);
+  EXPECT_TRUE(std::equal(kept.points.begin(), kept.points.end(), all.points.begin()));
+  const std::vector<double> distances = distances_from_hull(set.view(), kept.points, extreme.interior_point);
+  ASSERT_EQ(kept.left.size(), reordered.size());
+  for (std::size_t i = 0; i < reordered.size(); ++i) {
+    EXPECT_LE(kept.left[i], enough);
+    EXPECT_NEAR(kept.left[i], distances[reordered[i].value], 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace ndhull
