@@ -35,16 +35,17 @@ NumberedRows sort_rows(const SimplicialComplex& complex, std::size_t vertex_coun
   }
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.vertices < b.vertices; });
-  NumberedRows sorted{SimplexRows(D, vertex_count), {}};
+  NumberedRows sorted{SimplexRows(D, vertex_count, entries.size()), {}};
   sorted.row_of.reserve(entries.size());
   auto entry = entries.begin();
   for (std::uint32_t first = 0; first < vertex_count; ++first) {
     std::vector<std::uint16_t> others;
+    const std::size_t at = sorted.row_of.size();
     for (; entry != entries.end() && entry->vertices[0] == first; ++entry) {
       others.insert(others.end(), entry->vertices.begin() + 1, entry->vertices.end());
       sorted.row_of.push_back(entry->row);
     }
-    sorted.rows.set_part(first, std::move(others));
+    sorted.rows.set_part(first, at, others);
   }
   sorted.rows.number();
   return sorted;

@@ -111,10 +111,15 @@ bool Approximation::find_stars(double outside_width, double slab) {
   const std::uint64_t enough = most_rows == 0
                                    ? kRowsBeforeStars
                                    : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
-  if (growth_.grow_to(outside_width, enough, HUGE_VAL) || growth_.is_limited()) return false;
+  // In steps: where little is left to grow, growth ends before that.
+  for (std::uint64_t rows = std::min(enough, kEnoughAtHalf);; rows = std::min(enough, 2 * rows)) {
+    if (growth_.grow_to(outside_width, rows, HUGE_VAL) || growth_.is_limited()) return false;
+    if (growth_.furthest_height() <= kGrowthShareOfHuge * slab) return false;
+    if (rows == enough) break;
+  }
   // Heights fall about so fast as simplices become more: with the exponent (rank - 1) / 2 on spheres, two
-  // thirds of it on balls and gaussian points. Where memory is limited the larger number counts. All points
-  // that are left may be vertices; then simplices rise less than with their square.
+  // thirds of it on balls and gaussian points. Where the user limits memory the larger number counts. All
+  // points that are left may be vertices; then simplices rise less than with their square.
   const GrowthWork& work = growth_.work();
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   const double with_all =
@@ -126,7 +131,8 @@ bool Approximation::find_stars(double outside_width, double slab) {
   const double bytes = rows * (16.0 * static_cast<double>(work.rank) + 5.0);
   const bool is_too_large =
       input_bytes_ >= kLargeInput && bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
-  if (!is_too_large && (most_rows == 0 || most < static_cast<double>(most_rows))) return false;
+  const double foreseen = growth_.options().limits.max_memory_bytes > 0 ? most : rows;
+  if (!is_too_large && (most_rows == 0 || foreseen < static_cast<double>(most_rows))) return false;
   return take_star_hull(slab, rows);
 }
 

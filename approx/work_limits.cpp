@@ -82,8 +82,8 @@ std::uint64_t WorkLimits::most_star_rows(const GrowthWork& work, std::uint64_t p
   constexpr std::uint64_t kMost = UINT32_MAX - 1;
   if (limits_.most_memory() == 0) return kMost;
   const std::uint64_t complex_bytes = work.complex.row_count * (16 * work.rank + kFacetBytes);
-  // A third more for what the allocator keeps, and the tables of facets.
-  const std::uint64_t bytes_a_row = (2 * work.rank + 4) * 4 / 3;
+  constexpr std::uint64_t kBesideVertices = 6;  // state, and the tables of facets, which are fewer
+  const std::uint64_t bytes_a_row = 2 * (work.rank - 1) + kBesideVertices;
   return std::min(kMost, rows_for(bytes_a_row, point_bytes + complex_bytes));
 }
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/huge_array.h"
+
 namespace ndhull {
 
 /// Shapes  vertices are numbered from 0; of each simplex the smallest is its first. Row r of all is in the
@@ -15,13 +17,15 @@ class SimplexRows {
  public:
   static constexpr std::size_t kMostVertices = std::size_t{1} << 16;
 
-  /// No simplices. Precondition: vertex_count is at most kMostVertices.
-  SimplexRows(std::size_t rank, std::size_t vertex_count)
-      : rank_(rank), parts_(vertex_count), begin_(vertex_count + 1) {}
+  /// No simplices, and room for `capacity`: address space, which takes memory when it is used. Precondition:
+  /// vertex_count is at most kMostVertices.
+  SimplexRows(std::size_t rank, std::size_t vertex_count, std::size_t capacity)
+      : rank_(rank), others_(capacity * (rank - 1)), parts_(vertex_count), begin_(vertex_count + 1) {}
 
   /// The simplices whose first vertex this is: others, any number x (rank - 1), as they stand (see Shapes).
-  /// Different vertices may be set at the same time.
-  void set_part(std::uint32_t first, std::vector<std::uint16_t> others);
+  /// They are kept in places `at` and on, which no other part has. Several vertices may be set at the same
+  /// time.
+  void set_part(std::uint32_t first, std::size_t at, std::span<const std::uint16_t> others);
   /// After all parts are set: numbers the rows.
   void number();
 
@@ -50,7 +54,7 @@ class SimplexRows {
           continue;
         }
         for (std::uint32_t row = run.begin; row < part.runs[r + 1].begin; ++row) {
-          const std::uint16_t* const others = part.others.data() + row * width;
+          const std::uint16_t* const others = others_.data() + (part.at + row) * width;
           std::size_t k = 1;
           while (k < width && is_among[others[k]] != 0) ++k;
           if (k == width) take(static_cast<std::uint32_t>(begin_[vertices[i]] + row));
@@ -66,11 +70,12 @@ class SimplexRows {
     std::uint32_t second, begin;  // row of the part where this second vertex begins; the last is the end
   };
   struct Part {
-    std::vector<std::uint16_t> others;
-    std::vector<Run> runs;
+    std::size_t at = 0;
+    std::vector<Run> runs;  // none: no simplices
   };
 
   std::size_t rank_;
+  HugeArray<std::uint16_t> others_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> begin_;
 };

@@ -33,9 +33,9 @@ class VertexFigure {
   VertexFigure(std::span<const double> vertices, std::span<const double> normals, std::uint32_t vertex)
       : vertices_(vertices), normal_(normals.data() + std::size_t{vertex} * D), vertex_(vertex) {}
 
-  /// Adds what it finds to `rows` and `sums`. False when the figure has no full dimension or is not all that
-  /// there is.
-  bool grow_into(SimplexRows& rows, StarSums& sums) {
+  /// The simplices whose first vertex this is go to found(), all are counted in `sums`. False when the figure
+  /// has no full dimension, or decisions were too close.
+  bool grow_into(StarSums& sums) {
     if (!project()) return false;
     const PointView view = PointView::row_major(points_.data(), points_.size() / kFlat, kFlat);
     const Frame frame = fit_frame(view);
@@ -47,10 +47,12 @@ class VertexFigure {
     work.point_count = view.rows;
     work.points = coordinates.data();
     start_growth(work, frame.simplex, {});
-    if (grow(work) != GrowthStop::kNoOutsidePoints || work.counters.set_aside > 0) return false;
-    keep_first(work.complex, rows, sums);
+    if (grow(work) != GrowthStop::kNoOutsidePoints || !work.shifted_points.empty()) return false;
+    keep_first(work.complex, sums);
     return true;
   }
+  /// Any number x (D - 1), as SimplexRows has them.
+  std::span<const std::uint16_t> found() const { return found_; }
 
  private:
   static constexpr std::size_t kFlat = D - 1;
@@ -85,7 +87,7 @@ class VertexFigure {
     return true;
   }
 
-  void keep_first(const SimplicialComplex& complex, SimplexRows& rows, StarSums& sums) const {
+  void keep_first(const SimplicialComplex& complex, StarSums& sums) {
     std::vector<Others> found;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
@@ -107,23 +109,22 @@ class VertexFigure {
       found.push_back(others);
     }
     std::sort(found.begin(), found.end());
-    std::vector<std::uint16_t> flat;
-    flat.reserve(found.size() * kFlat);
-    for (const Others& others : found) flat.insert(flat.end(), others.begin(), others.end());
-    rows.set_part(vertex_, std::move(flat));
+    found_.reserve(found.size() * kFlat);
+    for (const Others& others : found) found_.insert(found_.end(), others.begin(), others.end());
   }
 
   std::span<const double> vertices_;
   const double* normal_;
   std::uint32_t vertex_;
   std::vector<double> points_;
+  std::vector<std::uint16_t> found_;
 };
 
 template <std::size_t D>
 std::optional<SimplexRows> grow_all(std::span<const double> vertices, std::span<const double> normals,
                                     const StarOptions& options) {
   const std::size_t count = vertices.size() / D;
-  SimplexRows rows(D, count);
+  SimplexRows rows(D, count, options.most_rows);
   std::vector<StarSums> sums(count);
   std::atomic<bool> has_ended = false;
   std::atomic<std::size_t> stars = 0;
@@ -131,13 +132,16 @@ std::optional<SimplexRows> grow_all(std::span<const double> vertices, std::span<
   for_each_block(count, 1, [&](std::size_t begin, std::size_t) {
     if (has_ended.load(std::memory_order_relaxed)) return;
     const auto vertex = static_cast<std::uint32_t>(begin);
+    StarSums& star = sums[vertex];
+    VertexFigure<D> figure(vertices, normals, vertex);
     bool is_whole = false;
-    run_alone([&](std::size_t, std::size_t) {
-      is_whole = VertexFigure<D>(vertices, normals, vertex).grow_into(rows, sums[vertex]);
-    });
-    const std::uint64_t all = kept += sums[vertex].kept;
-    if (!is_whole || all > options.most_rows || (options.gives_up && options.gives_up(++stars, all)))
+    run_alone([&](std::size_t, std::size_t) { is_whole = figure.grow_into(star); });
+    const std::uint64_t at = kept.fetch_add(star.kept), all = at + star.kept;
+    if (!is_whole || all > options.most_rows || (options.gives_up && options.gives_up(++stars, all))) {
       has_ended.store(true, std::memory_order_relaxed);
+    } else {
+      rows.set_part(vertex, at, figure.found());
+    }
   });
   if (has_ended.load()) return std::nullopt;
   StarSums all;
