@@ -29,9 +29,12 @@ Eigen::VectorXd nearest_in_span(const Eigen::MatrixXd& columns) {
 }  // namespace
 
 HullDistance hull_distance(const Eigen::Ref<const Eigen::MatrixXd>& hull,
-                           const Eigen::Ref<const Eigen::VectorXd>& point, HullDistance start) {
+                           const Eigen::Ref<const Eigen::VectorXd>& point, HullDistance start,
+                           const DistanceSearch& search) {
   HullDistance result = std::move(start);
-  const double size = std::max(std::sqrt(hull.colwise().squaredNorm().maxCoeff()), point.norm());
+  const double size = search.size > 0.0
+                          ? search.size
+                          : std::max(std::sqrt(hull.colwise().squaredNorm().maxCoeff()), point.norm());
   if (result.places.empty()) {
     Index nearest = 0;
     (hull.colwise() - point).colwise().squaredNorm().minCoeff(&nearest);
@@ -48,6 +51,7 @@ HullDistance hull_distance(const Eigen::Ref<const Eigen::MatrixXd>& hull,
   gather();
   result.gap = columns * result.weights;
   const double closed = kClosed * size * size;
+  const double near_sq = search.near_enough * search.near_enough;
   double least = 0.0;  // product of the gap with the column that is least far along it
   for (std::size_t round = 0;; ++round) {
     Index entering = 0;
@@ -55,7 +59,7 @@ HullDistance hull_distance(const Eigen::Ref<const Eigen::MatrixXd>& hull,
     const double length_sq = result.gap.squaredNorm();
     const auto place = static_cast<std::uint32_t>(entering);
     const bool is_known = std::find(result.places.begin(), result.places.end(), place) != result.places.end();
-    if (round == kMaxRounds || is_known || length_sq - least <= closed) break;
+    if (round == kMaxRounds || is_known || length_sq <= near_sq || length_sq - least <= closed) break;
     const HullDistance before = result;
     result.places.push_back(place);
     result.weights.conservativeResize(result.weights.size() + 1);

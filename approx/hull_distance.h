@@ -17,6 +17,12 @@ struct HullDistance {
   Eigen::VectorXd gap;                ///< nearest point - point
 };
 
+/// Where a search may end early, and what is known before it.
+struct DistanceSearch {
+  double near_enough = 0.0;  ///< [distance] a point found that is so near will do
+  double size = 0.0;         ///< no column, nor the point, is longer; 0: not known
+};
+
 /// Distance of `point` from the hull of the columns of `hull`.
 ///
 /// Shapes  hull: dimension x count, count >= 1. start: what was found for fewer of the columns, or empty.
@@ -30,6 +36,7 @@ struct HullDistance {
 /// most
 ///         dimension + 1 rows.
 HullDistance hull_distance(const Eigen::Ref<const Eigen::MatrixXd>& hull,
-                           const Eigen::Ref<const Eigen::VectorXd>& point, HullDistance start = {});
+                           const Eigen::Ref<const Eigen::VectorXd>& point, HullDistance start = {},
+                           const DistanceSearch& search = {});
 
 }  // namespace ndhull

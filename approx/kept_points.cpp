@@ -19,6 +19,8 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr std::size_t kLooksAtATime = 8;
+/// A point found this near to one, as a part of what is enough, ends the search for the nearest.
+constexpr double kWellWithin = 0.99;
 /// Points that are this little outside the others' hull are no vertices (extreme_points). [ratio]
 constexpr double kVertexRounding = 4e-12;
 
@@ -58,12 +60,12 @@ class Chooser {
   void keep(std::size_t vertex) {
     kept_.conservativeResize(Eigen::NoChange, kept_.cols() + 1);
     kept_.col(kept_.cols() - 1) = columns_.col(static_cast<Index>(vertex));
-    for_each_block(vertices_.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row != end; ++row) {
-        const HullDistance& known = found_[row];
-        if (known.places.empty() || known.upper <= enough_) continue;
-        const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(row));
-        if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[row] = 0;
+    std::erase_if(far_, [&](std::uint32_t row) { return found_[row].upper <= enough_; });
+    for_each_block(far_.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const HullDistance& known = found_[far_[i]];
+        const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(far_[i]));
+        if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[far_[i]] = 0;
       }
     });
   }
@@ -79,9 +81,12 @@ class Chooser {
         queue_.pop();
       }
       if (looks.empty()) return queue_.top().vertex;
+      for (const std::uint32_t vertex : looks)
+        if (found_[vertex].places.empty()) far_.push_back(vertex);
       for_each_block(looks.size(), 1, [&](std::size_t one, std::size_t) {
         HullDistance& known = found_[looks[one]];
-        known = hull_distance(kept_, columns_.col(static_cast<Index>(looks[one])), std::move(known));
+        known = hull_distance(kept_, columns_.col(static_cast<Index>(looks[one])), std::move(known),
+                              {.near_enough = kWellWithin * enough_, .size = size_});
         is_current_[looks[one]] = 1;
       });
       for (const std::uint32_t vertex : looks) queue_.push({found_[vertex].upper, vertex});
@@ -95,7 +100,8 @@ class Chooser {
       for (std::size_t row = begin; row != end; ++row) {
         HullDistance& known = found_[row];
         if (known.places.empty() || known.upper <= vertex_rounding()) continue;
-        known = hull_distance(kept_, columns_.col(static_cast<Index>(row)), std::move(known));
+        known =
+            hull_distance(kept_, columns_.col(static_cast<Index>(row)), std::move(known), {.size = size_});
       }
     });
   }
@@ -124,6 +130,7 @@ class Chooser {
   Eigen::MatrixXd kept_;
   std::vector<HullDistance> found_;
   std::vector<std::uint8_t> is_current_;
+  std::vector<std::uint32_t> far_;    // those looked at that were further than enough, at least
   std::priority_queue<Entry> queue_;  // one entry a vertex that was not given
   double enough_;
   double size_ = 0.0;

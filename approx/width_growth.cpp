@@ -23,7 +23,7 @@ constexpr double kAloneShare = 0.995;
 /// and those that a search finds, few at a time.
 constexpr int kRounds = 24, kSearchRounds = 96;
 /// Simplices from which on growth is asked whether the hull is found without them.
-constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 19;
+constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 18;
 /// [bytes] A complex may be so large, or so many times the input, of inputs of this size and more. Below, the
 /// time that stars take more is not worth the memory.
 constexpr double kMostComplexBytes = 0x1p29, kMostOfInput = 2.0, kLargeInput = 0x1p26;
