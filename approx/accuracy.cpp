@@ -1,5 +1,9 @@
 #include "approx/accuracy.h"
 
+#include <string>
+
+#include "core/error.h"
+
 #include <algorithm>
 
 namespace ndhull {
@@ -28,6 +32,17 @@ ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const Len
 double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
   if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
   return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);
+}
+
+void check_squares(double largest_extent) {
+  constexpr double kShortest = 1e-140, kLongest = 1e140;
+  if (largest_extent > kShortest && largest_extent < kLongest) return;
+  const bool is_small = largest_extent <= kShortest;
+  throw Error(ErrorCode::kOutOfRange,
+              std::string("points: found an extent ") + (is_small ? "below 1e-140" : "above 1e140") +
+                  ", expected " + (is_small ? "more" : "less") + " where facets are to be fewer; " +
+                  (is_small ? "multiply" : "divide") +
+                  " the coordinates by a power of two, or measure widths in the unit cube");
 }
 
 }  // namespace ndhull

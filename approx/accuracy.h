@@ -50,4 +50,7 @@ struct ResolvedAccuracy {
 };
 ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
 
+/// Throws Error kOutOfRange where squares and products of lengths would not be doubles.
+void check_squares(double largest_extent);
+
 }  // namespace ndhull

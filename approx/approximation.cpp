@@ -40,14 +40,15 @@ constexpr int kRounds = 24;
 
 Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
                              std::vector<double> factor, CertifiedGrowth& growth, Hull& hull,
-                             double input_bytes)
+                             double input_bytes, bool has_run_out_before)
     : frame_(frame),
       accuracy_(accuracy),
       lengths_(lengths),
       factor_(std::move(factor)),
       growth_(growth),
       hull_(hull),
-      input_bytes_(input_bytes) {}
+      input_bytes_(input_bytes),
+      has_run_out_before_(has_run_out_before) {}
 
 FacetClusters Approximation::run() {
   hull_.chosen.width_asked = lengths_.width > 0.0 ? lengths_.width : lengths_.outside_width;
@@ -319,7 +320,6 @@ FacetClusters Approximation::run_width() {
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
     grow_for_width(outside_width, slab);
-    if (goes_on_with_stars(slab)) return FacetClusters{};
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);

@@ -40,9 +40,10 @@ inline constexpr double kShareForGrowth = 0.25;
 class Approximation {
  public:
   /// All must outlive this. `factor`: gradient_factor of the frame and the length unit. `input_bytes`: of the
-  /// input that growth's points were kept of.
+  /// input that growth's points were kept of. `has_run_out_before`: memory has ended the same growth once.
   Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
-                std::vector<double> factor, CertifiedGrowth& growth, Hull& hull, double input_bytes);
+                std::vector<double> factor, CertifiedGrowth& growth, Hull& hull, double input_bytes,
+                bool has_run_out_before);
 
   /// Grows the hull and says which simplices become which facet. The complex may keep free rows; cluster_of
   /// has an entry for each row. No clusters: all facets are simplices so far.
@@ -50,6 +51,8 @@ class Approximation {
   /// Promised  with a target width no facet is wider, unless a limit ended growth: rounds go on, with smaller
   ///           slabs and more points, until the true widths over all points fit.
   FacetClusters run();
+  /// Is it asked for in a way that a hull without its complex answers, which has no early end?
+  bool may_do_without_complex() const;
   /// What run() found instead of clusters, if it did.
   std::optional<StarHull>& star_hull() { return star_hull_; }
 
@@ -98,10 +101,8 @@ class Approximation {
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices) const;
   void grow_for_width(double outside_width, double slab);
-  bool may_do_without_complex() const;
   bool find_stars(double outside_width, double slab);
   bool take_star_hull(double slab, double rows);
-  bool goes_on_with_stars(double slab);
   FacetClusters run_width();
   FacetClusters run_count();
   FacetClusters run_merging();
@@ -115,6 +116,7 @@ class Approximation {
   CertifiedGrowth& growth_;
   Hull& hull_;
   double input_bytes_;
+  bool has_run_out_before_;
   std::optional<StarHull> star_hull_;
   std::vector<PointId> extra_;  // points that reached further than the space knew
   std::optional<WidthSpace> space_;

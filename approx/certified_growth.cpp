@@ -216,8 +216,6 @@ bool CertifiedGrowth::may_cover() {
   return false;
 }
 
-std::uint64_t CertifiedGrowth::most_star_rows() const { return limits_.most_star_rows(work_, point_bytes()); }
-
 bool CertifiedGrowth::is_late() {
   const bool is_stopped = options_.stop.stop_requested();
   if (!is_stopped && !limits_.is_late()) return false;

@@ -73,9 +73,8 @@ class CertifiedGrowth {
   /// Is there memory to search so many points for the furthest above each simplex (outside_points.h)? The
   /// status says when there is not.
   bool may_search(std::size_t points);
-  /// Simplices known by their vertices alone (core/vertex_stars.h) that there is memory for beside the
-  /// complex.
-  std::uint64_t most_star_rows() const;
+  /// [bytes] that are left beside the complex and the points; UINT64_MAX: no limit.
+  std::uint64_t bytes_left() const { return limits_.bytes_left(work_, point_bytes()); }
   /// Simplices that there is memory for; 0: no limit.
   std::uint64_t most_rows() const { return limits_.most_rows(work_, frame_.dimension, point_bytes()); }
   const HullOptions& options() const { return options_; }

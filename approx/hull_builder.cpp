@@ -29,8 +29,12 @@ namespace ndhull {
 class HullBuilder {
  public:
   HullBuilder(const PointView& points, const HullOptions& options, Clock::time_point start,
-              double input_bytes)
-      : points_(points), options_(options), start_(start), input_bytes_(input_bytes) {}
+              double input_bytes, bool has_run_out_before = false)
+      : points_(points),
+        options_(options),
+        start_(start),
+        input_bytes_(input_bytes),
+        has_run_out_before_(has_run_out_before) {}
 
   /// The hull of some of the points in terms of all of them: point i of it is ids[i].
   static void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {
@@ -76,7 +80,7 @@ class HullBuilder {
       if (grow_or_describe()) return std::move(hull_);
       if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
     } else {
-      approximate(factor);
+      if (!approximate(factor)) return without_complex();
       if (star_hull_) {
         adopt(std::move(*star_hull_));
         return std::move(hull_);
@@ -119,8 +123,9 @@ class HullBuilder {
     hull_.subspace_equations = find_subspace_equations(frame_);
   }
 
-  /// Grows as far as the accuracy asks for and finds the facets.
-  void approximate(const std::vector<double>& factor) {
+  /// Grows as far as the accuracy asks for and finds the facets. False: memory has ended growth, and there is
+  /// another way.
+  bool approximate(const std::vector<double>& factor) {
     const Clock::time_point begin = Clock::now();
     const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
     constexpr double kLongest = 1e36;  // depths are kept in single precision
@@ -133,22 +138,13 @@ class HullBuilder {
           "coordinates by a power of two, or measure widths in the unit cube");
     }
     check_squares(lengths.largest_extent);
-    Approximation approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_);
+    Approximation approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_,
+                                has_run_out_before_);
     clusters_ = approximation.run();
     star_hull_ = std::move(approximation.star_hull());
     seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
-  }
-
-  /// Squares and products of lengths must be doubles.
-  static void check_squares(double largest_extent) {
-    constexpr double kShortest = 1e-140, kLongest = 1e140;
-    if (largest_extent > kShortest && largest_extent < kLongest) return;
-    const bool is_small = largest_extent <= kShortest;
-    throw Error(ErrorCode::kOutOfRange,
-                std::string("points: found an extent ") + (is_small ? "below 1e-140" : "above 1e140") +
-                    ", expected " + (is_small ? "more" : "less") + " where facets are to be fewer; " +
-                    (is_small ? "multiply" : "divide") +
-                    " the coordinates by a power of two, or measure widths in the unit cube");
+    return hull_.status != HullStatus::kMemoryLimit || has_run_out_before_ ||
+           !approximation.may_do_without_complex();
   }
 
   void merge() {
@@ -198,6 +194,12 @@ class HullBuilder {
     HullOptions options = options_;
     options.accuracy.objective = FacetObjective::kWidth;
     return HullBuilder(points_, options, start_, input_bytes_).run();
+  }
+
+  /// From the beginning: the complex has the memory that rows of vertices need. It may end as before.
+  Hull without_complex() {
+    growth_.reset();
+    return HullBuilder(points_, options_, start_, input_bytes_, true).run();
   }
 
   std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }
@@ -271,44 +273,58 @@ class HullBuilder {
       hull_.simplex_count_ += hull_.later_->count_of(FacetId{facet});
   }
 
-  /// A hull that was found without its complex.
+  /// A hull that was found without its complex. Facets of one simplex come first.
   void adopt(StarHull found) {
     const Clock::time_point start = Clock::now();
-    const std::size_t rank = frame_.rank, facets = found.facets.count();
-    const auto fill = [](const std::vector<double>& from, HugeArray<double>& to) {
-      std::copy(from.begin(), from.end(), to.data());
-    };
+    RowFacets& facets = found.facets;
+    const std::size_t rank = frame_.rank, count = facets.count();
     std::vector<double> coordinates;
-    std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> ids, order(count);
     for (const PointId vertex : found.vertices) {
       const double* y = growth_->coordinates() + std::size_t{vertex.value} * rank;
       coordinates.insert(coordinates.end(), y, y + rank);
       ids.push_back(vertex.value);
     }
-    // Beside the plane that is nearest to the centre all planes are within the distance of all points.
-    std::vector<PointId> points = growth_->left_out_points(true);
-    growth_->certify_by_search(points, found.distance / found.facets.least_distance, KnownHighest());
-    complex() = SimplicialComplex(rank, facets);
-    complex().row_count = facets;
-    fill(found.facets.planes, complex().planes);
-    determinants_ = HugeArray<double>(facets);
-    fill(found.facets.determinants, determinants_);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto merged = std::stable_partition(order.begin(), order.end(),
+                                              [&](std::uint32_t facet) { return facets.sizes[facet] == 1; });
+    // The plane that is nearest to the centre is where a distance is the largest part of a height.
+    growth_->certify_by_search(growth_->left_out_points(true), found.distance / facets.least_distance,
+                               KnownHighest());
+    complex() = SimplicialComplex(rank, count);
+    complex().row_count = count;
+    determinants_ = HugeArray<double>(count);
+    hull_.layout_.area_vectors.resize(count * rank);
+    IdRows vertices, points;
+    std::vector<std::uint32_t> sizes(count);
+    for (std::size_t row = 0; row < count; ++row) {
+      const std::size_t facet = order[row];
+      std::copy_n(facets.planes.data() + facet * rank, rank, complex().planes.data() + row * rank);
+      std::copy_n(facets.area_vectors.data() + facet * rank, rank,
+                  hull_.layout_.area_vectors.data() + row * rank);
+      determinants_[row] = facets.determinants[facet];
+      sizes[row] = facets.sizes[facet];
+      for (const std::uint32_t vertex : facets.vertices.row(facet)) {
+        vertices.values.push_back(vertex);
+        points.values.push_back(ids[vertex]);
+      }
+      vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
+    }
+    points.begin = vertices.begin;
+    const double surface = facets.surface;
+    facets = RowFacets();  // before the table is made
     hull_.is_approximate = true;
-    hull_.layout_.facets = facets;
-    hull_.layout_.area_vectors = std::move(found.facets.area_vectors);
-    hull_.layout_.merged_surface =
-        std::accumulate(found.facets.surfaces.begin(), found.facets.surfaces.end(), 0.0);
+    hull_.layout_.facets = count;
+    hull_.layout_.merged_surface = surface;
     hull_.layout_.surface_exponent = found.surface_exponent;
-    IdRows vertices = found.facets.vertices;
-    for (std::uint32_t& vertex : vertices.values) vertex = ids[vertex];
-    certify_facets(KnownHighest(), &vertices);
-    hull_.layout_.simplicial = found.facets.simplicial;
+    certify_facets(KnownHighest(), &points);
+    hull_.layout_.simplicial = static_cast<std::size_t>(merged - order.begin());
     hull_.vertices = std::move(found.vertices);
     std::sort(hull_.vertices.begin(), hull_.vertices.end());
     hull_.simplex_count_ = found.simplices;
-    hull_.later_ = std::make_unique<RegrownSimplices>(
-        rank, std::move(coordinates), std::move(ids), std::move(found.facets.vertices),
-        std::move(found.facets.sizes), std::move(found.facets.turns));
+    hull_.later_ =
+        std::make_unique<RegrownSimplices>(rank, std::move(coordinates), std::move(ids), std::move(vertices),
+                                           std::move(sizes), std::move(order));
     seconds(Phase::kMerge) += seconds_since(start);
   }
 
@@ -356,6 +372,7 @@ class HullBuilder {
   const HullOptions& options_;
   Clock::time_point start_;
   double input_bytes_;
+  bool has_run_out_before_;
   Hull hull_;
   Frame frame_;
   std::optional<CertifiedGrowth> growth_;

@@ -16,7 +16,8 @@ namespace ndhull {
 class RegrownSimplices : public LaterSimplices {
  public:
   /// Shapes  coordinates: vertices x rank, the hull of which holds 0. ids: the points that these are.
-  ///         facet_vertices, sizes, turns: as RowFacets has them (row_cover.h).
+  ///         facet_vertices, sizes: of each facet numbers of vertices and simplices. turns: in which order
+  ///         facets took their simplices (row_cover.h).
   RegrownSimplices(std::size_t rank, std::vector<double> coordinates, std::vector<std::uint32_t> ids,
                    IdRows facet_vertices, std::vector<std::uint32_t> sizes, std::vector<std::uint32_t> turns)
       : rank_(rank),

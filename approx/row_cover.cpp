@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "approx/gradient_length.h"
 #include "approx/slab_growth.h"
@@ -56,8 +55,7 @@ template <std::size_t D>
 class RowCover {
  public:
   RowCover(const SimplexRows& rows, const WidthSpace& space, const double* coordinates,
-           std::span<const double> area_factor, double width,
-           const std::function<bool(std::uint64_t)>& gives_up)
+           std::span<const double> area_factor, double width, const CoverQuestion& gives_up)
       : rows_(rows),
         space_(space),
         length_of_(space.gradient_factor()),
@@ -80,7 +78,6 @@ class RowCover {
     const double mean = mean_size();
     for (const double part : kWorthTaking)
       if (!pass(std::max<std::size_t>(1, static_cast<std::size_t>(part * mean)))) return std::nullopt;
-    put_in_order();
     return std::move(facets_);
   }
 
@@ -99,6 +96,7 @@ class RowCover {
     VertexSlab slab;
     std::vector<std::uint32_t> held;
     std::uint32_t facet = kNone;
+    double surface = 0.0;  // of what became the facet
   };
 
   /// |determinant| of a row's vertices.
@@ -192,7 +190,7 @@ class RowCover {
           if (lane.seed < lane.end) chosen.push_back(&lane);
         }
         if (chosen.empty()) break;
-        if (gives_up_ && gives_up_(rows_.count() - taken_)) return false;
+        if (gives_up_ && gives_up_(rows_.count() - taken_, facets_.count())) return false;
         find_slabs(chosen);
         for (Lane* const lane : chosen)
           if (!take(*lane, least)) return false;
@@ -217,11 +215,9 @@ class RowCover {
     taken_ += lane.held.size();
     lane.facet = static_cast<std::uint32_t>(facets_.count());
     facets_.sizes.push_back(static_cast<std::uint32_t>(lane.held.size()));
-    facets_.turns.push_back(lane.facet);
     facets_.planes.resize(facets_.planes.size() + D);
     facets_.area_vectors.resize(facets_.area_vectors.size() + D);
     facets_.determinants.push_back(0.0);
-    facets_.surfaces.push_back(0.0);
     return true;
   }
 
@@ -229,6 +225,7 @@ class RowCover {
   void sum_up(std::span<Lane* const> lanes) {
     for_each_block(lanes.size(), 1, [&](std::size_t i, std::size_t) {
       Lane& lane = *lanes[i];
+      lane.surface = 0.0;
       if (lane.facet == kNone) return;
       std::vector<std::uint8_t>& is_among = scratch_of_thread_.local().is_among;
       double* const plane_of_facet = facets_.planes.data() + std::size_t{lane.facet} * D;
@@ -238,7 +235,7 @@ class RowCover {
         Plane plane;
         const double determinant = solve(row, plane);
         facets_.determinants[lane.facet] += determinant;
-        facets_.surfaces[lane.facet] += determinant * area_of_(plane.data());
+        lane.surface += determinant * area_of_(plane.data());
         for (std::size_t k = 0; k < D; ++k) area[k] += determinant * plane[k];
         if (lane.held.size() == 1) std::copy_n(plane.data(), D, plane_of_facet);
         std::array<std::uint32_t, D> ids;
@@ -249,6 +246,7 @@ class RowCover {
       for (const std::uint32_t vertex : lane.slab.vertices) is_among[vertex] = 0;
     });
     for (Lane* const lane : lanes) {
+      facets_.surface += lane->surface;
       if (lane->facet == kNone) continue;
       std::vector<std::uint32_t>& values = facets_.vertices.values;
       values.insert(values.end(), lane->slab.vertices.begin(), lane->slab.vertices.end());
@@ -256,36 +254,11 @@ class RowCover {
     }
   }
 
-  /// Facets of one simplex first.
-  void put_in_order() {
-    std::vector<std::uint32_t> order = facets_.turns;
-    const auto merged = std::stable_partition(order.begin(), order.end(),
-                                              [&](std::uint32_t facet) { return facets_.sizes[facet] == 1; });
-    RowFacets sorted;
-    sorted.simplicial = static_cast<std::size_t>(merged - order.begin());
-    sorted.least_distance = facets_.least_distance;
-    for (const std::uint32_t facet : order) {
-      const auto append = [&](const std::vector<double>& from, std::vector<double>& to) {
-        to.insert(to.end(), from.begin() + facet * D, from.begin() + (facet + 1) * D);
-      };
-      append(facets_.planes, sorted.planes);
-      append(facets_.area_vectors, sorted.area_vectors);
-      sorted.determinants.push_back(facets_.determinants[facet]);
-      sorted.surfaces.push_back(facets_.surfaces[facet]);
-      sorted.sizes.push_back(facets_.sizes[facet]);
-      const auto vertices = facets_.vertices.row(facet);
-      sorted.vertices.values.insert(sorted.vertices.values.end(), vertices.begin(), vertices.end());
-      sorted.vertices.begin.push_back(static_cast<std::uint32_t>(sorted.vertices.values.size()));
-    }
-    sorted.turns = std::move(order);
-    facets_ = std::move(sorted);
-  }
-
   const SimplexRows& rows_;
   const WidthSpace& space_;
   GradientLength<D> length_of_, area_of_;
   double width_;
-  const std::function<bool(std::uint64_t)>& gives_up_;
+  const CoverQuestion& gives_up_;
   std::vector<std::uint8_t> state_;  // per row
   std::uint64_t taken_ = 0;
   SimplicialComplex seeds_;  // of the slabs that are being found
@@ -299,7 +272,7 @@ class RowCover {
 
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width, const std::function<bool(std::uint64_t)>& gives_up) {
+                                    double width, const CoverQuestion& gives_up) {
   return call_with_dimension<3, kMaxRank>(rows.rank(), [&](auto d) {
     return RowCover<d>(rows, space, coordinates, area_factor, width, gives_up).run();
   });

@@ -21,30 +21,31 @@
 
 namespace ndhull {
 
-/// Facets that together are all simplices, each one in one of them.
+/// Facets that together are all simplices, each one in one of them, in the order in which they took theirs.
 struct RowFacets {
-  std::size_t simplicial = 0;        ///< so many come first: those of one simplex
   std::vector<double> planes;        ///< facets x rank, dual planes in the frame
   std::vector<double> determinants;  ///< of each the sum over its simplices' vertex rows, > 0
   std::vector<double> area_vectors;  ///< facets x rank: the sum of determinant times plane
-  std::vector<double> surfaces;      ///< the sum of determinant times |R plane|
+  double surface = 0.0;              ///< of all simplices the sum of determinant times |R plane|
   std::vector<std::uint32_t> sizes;  ///< simplices of each
-  std::vector<std::uint32_t> turns;  ///< in which order facets took their simplices
   IdRows vertices;                   ///< of each, numbers of vertices, ascending
   double least_distance = 0.0;       ///< [distance] no simplex' plane is nearer to the centre
   std::size_t count() const { return sizes.size(); }
 };
 
+/// What is asked now and then, from the calling thread: give up, with so many simplices in no facet yet, and
+/// so many facets?
+using CoverQuestion = std::function<bool(std::uint64_t simplices_left, std::uint64_t facets)>;
+
 /// Covers all rows with slabs of `width`.
 ///
 /// Shapes  space: its first rows are the vertices as `rows` numbers them. coordinates: points x rank, in the
-///         frame. area_factor: rank x rank, R of RowFacets::surfaces.
-/// Returns nothing when a simplex alone is wider, or `gives_up` says so; it is asked now and then, from the
-///         calling thread, and told how many simplices are in no facet yet.
+///         frame. area_factor: rank x rank, R of RowFacets::surface.
+/// Returns nothing when a simplex alone is wider, or `gives_up` says so.
 /// Cost    for each slab tried a few products of a direction with the vertices, and searches in the space; a
 ///         linear system for each simplex, twice. A byte a simplex, besides the rows.
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
-                                    double width, const std::function<bool(std::uint64_t)>& gives_up);
+                                    double width, const CoverQuestion& gives_up);
 
 }  // namespace ndhull

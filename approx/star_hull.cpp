@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "approx/boundedness.h"
 #include "approx/hull_distance.h"
 #include "approx/kept_points.h"
 #include "approx/width_space.h"
@@ -21,8 +22,8 @@ using Index = Eigen::Index;
 /// A vertex that is nearer than this to the hull of the others is left out too: seen from it, others would
 /// lie in directions that rounding decides. [ratio of the size]
 constexpr double kClearVertex = 1e-7;
-/// So many facets that are narrower than the hull bound a region, and few would fit into one.
-constexpr std::size_t kManyFacets = 1000;
+/// So many facets that are narrower than the hull bound a region.
+constexpr std::size_t kSurelyBounding = 1000;
 
 /// Which points are vertices, and in which direction each is furthest.
 struct ChosenVertices {
@@ -31,6 +32,11 @@ struct ChosenVertices {
   std::vector<std::uint32_t> others;  // rows that may be outside
   double distance = 0.0;              // of the furthest, proven
 };
+
+bool bounds_region(const RowFacets& facets, std::size_t rank) {
+  if (facets.count() <= rank) return false;
+  return facets.count() > kSurelyBounding || find_open_direction(facets.planes, rank).bounded;
+}
 
 std::vector<PointId> corners_of(const CertifiedGrowth& growth, const SimplicialComplex& complex) {
   const std::vector<bool> is_corner = find_corners(complex, 0, complex.row_count, growth.input().rows);
@@ -137,6 +143,9 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   {
     std::vector<PointId> outside;
     for (const LocatedPoint& point : growth.left_out()) outside.push_back(point.point);
+    // What is known of the nearest point to each: three lists, and the coordinates in two shapes.
+    const std::uint64_t bytes = outside.size() * (240 + 56 * work.rank);
+    if (bytes > growth.bytes_left() / 2) return std::nullopt;
     const WidthSpace first = make_space(corners_of(growth, work.complex), outside);
     std::optional<ChosenVertices> chosen = choose_vertices(first, enough, growth.options().stop);
     if (!chosen) return std::nullopt;
@@ -148,9 +157,14 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   const WidthSpace space = make_space(hull.vertices, others);
   lap("choosing vertices");
   StarOptions options;
-  options.most_rows = growth.most_star_rows();
+  const std::uint64_t row_bytes = 2 * (work.rank - 1) + 1, left = growth.bytes_left();
+  if (left != UINT64_MAX) {
+    // Two threads may have a third of it in stars: tables, with those of one insertion.
+    options.most_table_rows = left / 6 / (16 * work.rank + 64);
+    options.most_rows = std::min(options.most_rows, left / 5 * 3 / row_bytes);
+  }
   const std::stop_token& stop = growth.options().stop;
-  const auto bytes_of = [&](std::uint64_t simplices) { return simplices * 2 * (work.rank - 1); };
+  const auto bytes_of = [&](std::uint64_t simplices) { return simplices * row_bytes; };
   const std::thread::id caller = std::this_thread::get_id();
   options.gives_up = [&](std::size_t stars, std::uint64_t simplices) {
     if (std::this_thread::get_id() == caller)
@@ -163,14 +177,19 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   lap("stars");
   if (!rows) return std::nullopt;
   hull.simplices = rows->count();
-  const auto gives_up = [&](std::uint64_t simplices_left) {
-    growth.tell(Phase::kMerge, 0, hull.distance, simplices_left, bytes_of(hull.simplices));
-    return stop.stop_requested();
+  // Planes, areas and vertices while they become more, then the facet table beside them.
+  const std::uint64_t facet_bytes = 48 * work.rank + 200;
+  const std::uint64_t most_facets =
+      left == UINT64_MAX ? left : (left - bytes_of(hull.simplices)) / facet_bytes;
+  const auto gives_up = [&](std::uint64_t simplices_left, std::uint64_t found) {
+    growth.tell(Phase::kMerge, 0, hull.distance, simplices_left,
+                bytes_of(hull.simplices) + found * facet_bytes);
+    return found > most_facets || stop.stop_requested();
   };
   std::optional<RowFacets> facets =
       cover_rows(*rows, space, growth.coordinates(), area_factor, width, gives_up);
   lap("slabs of rows");
-  if (!facets || facets->count() <= kManyFacets) return std::nullopt;
+  if (!facets || !bounds_region(*facets, work.rank)) return std::nullopt;
   hull.facets = std::move(*facets);
   return hull;
 }

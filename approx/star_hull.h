@@ -23,16 +23,17 @@ struct StarHull {
   RowFacets facets;
   std::uint64_t simplices = 0;
   double distance = 0.0;     ///< [distance] proven: all points are within this of the vertices' hull
-  int surface_exponent = 0;  ///< facets.surfaces times 2^surface_exponent are areas' multiples
+  int surface_exponent = 0;  ///< facets.surface times 2^surface_exponent is a multiple of an area
 };
 
 /// Goes on from the vertices that growth has: a hull whose facets are no wider than `width`. Points less than
 /// `enough` from the hull, which is less than `width`, may be left out.
 ///
 /// Shapes  factor: gradient_factor of the frame and the length unit; area_factor: the same in input units,
-///         scaled as wanted (RowFacets::surfaces).
-/// Returns nothing where that is not to be had: data are degenerate, facets are few, simplices more than
-///         memory allows, or a stop was requested. Growth is as it was, but that points were located.
+///         scaled as wanted (RowFacets::surface).
+/// Returns nothing where that is not to be had: data are degenerate, facets bound no region, simplices or
+///         facets are more than memory allows, or a stop was requested. Growth is as it was, but that points
+///         were located.
 std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const double> factor,
                                        std::span<const double> area_factor, double width, double enough);
 

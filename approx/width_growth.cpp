@@ -99,8 +99,9 @@ void Approximation::grow_for_width(double outside_width, double slab) {
 /// Is it asked for in a way that stars can answer, which have no early end?
 bool Approximation::may_do_without_complex() const {
   const HullOptions& options = growth_.options();
-  return lengths_.outside_width == 0.0 && growth_.frame().rank >= 3 && !options.wants_simplices &&
-         options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+  return lengths_.width > 0.0 && accuracy_.facets == 0 && lengths_.outside_width == 0.0 &&
+         growth_.frame().rank >= 3 && !options.wants_simplices && options.limits.max_seconds == 0.0 &&
+         options.limits.max_facets == 0;
 }
 
 /// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
@@ -113,26 +114,25 @@ bool Approximation::find_stars(double outside_width, double slab) {
                                    : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
   // In steps: where little is left to grow, growth ends before that.
   for (std::uint64_t rows = std::min(enough, kEnoughAtHalf);; rows = std::min(enough, 2 * rows)) {
-    if (growth_.grow_to(outside_width, rows, HUGE_VAL) || growth_.is_limited()) return false;
-    if (growth_.furthest_height() <= kGrowthShareOfHuge * slab) return false;
-    if (rows == enough) break;
+    const bool is_grown = growth_.grow_to(outside_width, rows, HUGE_VAL);
+    if (growth_.is_limited()) return false;
+    const bool is_near = is_grown || growth_.furthest_height() <= kGrowthShareOfHuge * slab;
+    if (is_near && !has_run_out_before_) return false;
+    if (is_near || rows == enough) break;
   }
-  // Heights fall about so fast as simplices become more: with the exponent (rank - 1) / 2 on spheres, two
-  // thirds of it on balls and gaussian points. Where the user limits memory the larger number counts. All
-  // points that are left may be vertices; then simplices rise less than with their square.
+  // Heights fall about so fast as simplices become more: balls and gaussian points, somewhat slower than
+  // spheres. All points that are left may be vertices; simplices rise about with their square then.
   const GrowthWork& work = growth_.work();
-  const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
-  const double with_all =
-      static_cast<double>(enough) * std::pow(1.0 + static_cast<double>(work.points_outside) / vertices, 2.0);
-  const double half_rank = 0.5 * static_cast<double>(work.rank - 1);
+  const double rank = static_cast<double>(work.rank);
+  const double vertices = static_cast<double>(work.counters.insertions) + rank + 1.0;
+  const double more = 1.0 + static_cast<double>(work.points_outside) / vertices;
   const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab));
-  const double most = std::min(with_all, static_cast<double>(enough) * std::pow(fall, half_rank));
-  const double rows = std::min(with_all, static_cast<double>(enough) * std::pow(fall, 2.0 / 3.0 * half_rank));
-  const double bytes = rows * (16.0 * static_cast<double>(work.rank) + 5.0);
+  const double rows = static_cast<double>(enough) * std::min(more * more, std::pow(fall, (rank - 1.0) / 3.0));
   const bool is_too_large =
-      input_bytes_ >= kLargeInput && bytes > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
-  const double foreseen = growth_.options().limits.max_memory_bytes > 0 ? most : rows;
-  if (!is_too_large && (most_rows == 0 || foreseen < static_cast<double>(most_rows))) return false;
+      input_bytes_ >= kLargeInput &&
+      rows * (16.0 * rank + 5.0) > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
+  const bool has_no_room = most_rows > 0 && rows > static_cast<double>(most_rows);
+  if (!is_too_large && !has_no_room && !has_run_out_before_) return false;
   return take_star_hull(slab, rows);
 }
 
@@ -148,13 +148,6 @@ bool Approximation::take_star_hull(double slab, double rows) {
   hull_.chosen.outside_width = star_hull_->distance;
   hull_.chosen.slab_width = slab;
   return true;
-}
-
-/// What growth that memory ended could not have: rows of vertices alone may still fit.
-bool Approximation::goes_on_with_stars(double slab) {
-  if (hull_.status != HullStatus::kMemoryLimit || !may_do_without_complex()) return false;
-  const GrowthWork& work = growth_.work();
-  return take_star_hull(slab, static_cast<double>(work.complex.row_count - work.free_count));
 }
 
 }  // namespace ndhull

@@ -78,13 +78,10 @@ bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimens
   return work.complex.row_count <= rows_for(bytes_a_row, bytes_of_points);
 }
 
-std::uint64_t WorkLimits::most_star_rows(const GrowthWork& work, std::uint64_t point_bytes) const {
-  constexpr std::uint64_t kMost = UINT32_MAX - 1;
-  if (limits_.most_memory() == 0) return kMost;
+std::uint64_t WorkLimits::bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const {
+  if (limits_.most_memory() == 0) return UINT64_MAX;
   const std::uint64_t complex_bytes = work.complex.row_count * (16 * work.rank + kFacetBytes);
-  constexpr std::uint64_t kBesideVertices = 6;  // state, and the tables of facets, which are fewer
-  const std::uint64_t bytes_a_row = 2 * (work.rank - 1) + kBesideVertices;
-  return std::min(kMost, rows_for(bytes_a_row, point_bytes + complex_bytes));
+  return rows_for(1, point_bytes + complex_bytes);
 }
 
 double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }

@@ -38,8 +38,8 @@ class WorkLimits {
   /// Is there memory to search `points` for the furthest above each simplex (outside_points.h)?
   bool has_memory_to_search(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
                             std::uint64_t points) const;
-  /// Simplices, known by their vertices alone, that there is memory for beside the rows that the complex has.
-  std::uint64_t most_star_rows(const GrowthWork& work, std::uint64_t point_bytes) const;
+  /// [bytes] that are left beside the complex and the points; UINT64_MAX: no limit.
+  std::uint64_t bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
   /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a

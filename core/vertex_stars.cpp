@@ -30,8 +30,12 @@ struct StarSums {
 template <std::size_t D>
 class VertexFigure {
  public:
-  VertexFigure(std::span<const double> vertices, std::span<const double> normals, std::uint32_t vertex)
-      : vertices_(vertices), normal_(normals.data() + std::size_t{vertex} * D), vertex_(vertex) {}
+  VertexFigure(std::span<const double> vertices, std::span<const double> normals, std::uint32_t vertex,
+               std::uint64_t most_table_rows)
+      : vertices_(vertices),
+        normal_(normals.data() + std::size_t{vertex} * D),
+        vertex_(vertex),
+        most_table_rows_(most_table_rows) {}
 
   /// The simplices whose first vertex this is go to found(), all are counted in `sums`. False when the figure
   /// has no full dimension, or decisions were too close.
@@ -46,6 +50,7 @@ class VertexFigure {
     work.rank = kFlat;
     work.point_count = view.rows;
     work.points = coordinates.data();
+    work.options.most_table_rows = most_table_rows_;
     start_growth(work, frame.simplex, {});
     if (grow(work) != GrowthStop::kNoOutsidePoints || !work.shifted_points.empty()) return false;
     keep_first(work.complex, sums);
@@ -116,6 +121,7 @@ class VertexFigure {
   std::span<const double> vertices_;
   const double* normal_;
   std::uint32_t vertex_;
+  std::uint64_t most_table_rows_;
   std::vector<double> points_;
   std::vector<std::uint16_t> found_;
 };
@@ -133,7 +139,7 @@ std::optional<SimplexRows> grow_all(std::span<const double> vertices, std::span<
     if (has_ended.load(std::memory_order_relaxed)) return;
     const auto vertex = static_cast<std::uint32_t>(begin);
     StarSums& star = sums[vertex];
-    VertexFigure<D> figure(vertices, normals, vertex);
+    VertexFigure<D> figure(vertices, normals, vertex, options.most_table_rows);
     bool is_whole = false;
     run_alone([&](std::size_t, std::size_t) { is_whole = figure.grow_into(star); });
     const std::uint64_t at = kept.fetch_add(star.kept), all = at + star.kept;

@@ -16,9 +16,10 @@ struct StarCase {
   double percent;
   std::uint64_t megabytes;
 };
-const StarCase kCases[] = {{PointFamily::kSphere, 1000, 5, 1.0, 4},   {PointFamily::kSphere, 400, 6, 3.0, 5},
-                           {PointFamily::kGaussian, 3000, 7, 5.0, 9}, {PointFamily::kBall, 1000, 6, 2.0, 6},
-                           {PointFamily::kEllipsoid, 300, 7, 3.0, 8}, {PointFamily::kSphere, 100, 8, 5.0, 5}};
+const StarCase kCases[] = {
+    {PointFamily::kSphere, 1000, 5, 1.0, 9},    {PointFamily::kSphere, 400, 6, 3.0, 8},
+    {PointFamily::kGaussian, 3000, 7, 5.0, 24}, {PointFamily::kBall, 1000, 6, 2.0, 14},
+    {PointFamily::kEllipsoid, 300, 7, 3.0, 17}, {PointFamily::kSphere, 100, 8, 5.0, 28}};
 
 HullOptions limited(const StarCase& star, bool unit_cube) {
   HullOptions options;
