@@ -59,7 +59,8 @@ struct HullOptions {
   /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
   /// the planes are wanted.
   bool certifies_planes = true;
-  /// Simplices will be asked for: the hull is not looked for by whole facets (core/double_description.h).
+  /// Simplices will be asked for: the hull is not looked for by whole facets (core/double_description.h), nor
+  /// without its complex (star_hull.h).
   bool wants_simplices = false;
   /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
   /// once.

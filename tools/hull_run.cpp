@@ -202,6 +202,9 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   interrupt.arm();
   HullOptions hull_options = context.options;
   hull_options.limits = limits_left(hull_options.limits, start);
+  // Both look at all simplices: of an approximate hull the complex is kept then, whatever it takes.
+  if (!hull_options.accuracy.is_exact())
+    hull_options.wants_simplices = request.verify.has_value() || !request.formats.empty();
   std::optional<Hull> computed = input.compute(hull_options);
 
   std::optional<Verification> verification;
