@@ -186,8 +186,8 @@ class Hull {
   std::uint64_t simplex_count_of(FacetId facet) const;
   /// The facets' simplices, compacted; without planes: those of the facets are here. Throws, as the two calls
   /// above that name simplices do, Error kTooManySimplices: a hull that was found without them has more than
-  /// 2^27. Cost  the first call for such a hull makes them (core/pulled_complex.h); several threads may make
-  /// it.
+  /// 2^27, or rounding makes others of its vertices than it was found with. Cost  the first call for such a
+  /// hull makes them (later_simplices.h), with the memory and time of growth; several threads may make it.
   const SimplicialComplex& simplices() const;
   bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
 

@@ -159,8 +159,9 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   StarOptions options;
   const std::uint64_t row_bytes = 2 * (work.rank - 1) + 1, left = growth.bytes_left();
   if (left != UINT64_MAX) {
-    // Two threads may have a third of it in stars: tables, with those of one insertion.
-    options.most_table_rows = left / 6 / (16 * work.rank + 64);
+    // Two threads may have half of it in the tables of stars, while there are few rows or the stars are
+    // small.
+    options.most_table_rows = left / 4 / (16 * work.rank + 64);
     options.most_rows = std::min(options.most_rows, left / 5 * 3 / row_bytes);
   }
   const std::stop_token& stop = growth.options().stop;
