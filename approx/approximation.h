@@ -117,6 +117,7 @@ class Approximation {
   Hull& hull_;
   double input_bytes_;
   bool has_run_out_before_;
+  bool has_too_many_vertices_ = false;  // for stars, as far as is foreseen
   std::optional<StarHull> star_hull_;
   std::vector<PointId> extra_;  // points that reached further than the space knew
   std::optional<WidthSpace> space_;

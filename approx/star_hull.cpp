@@ -73,7 +73,7 @@ std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double en
   for (std::uint32_t row = 0; row < count; ++row) ids[row] = PointId{row};
   const PointView points = PointView::row_major(space.row(0), count, rank);
   const KeptPoints kept = keep_points(points, ids, std::vector<double>(rank),
-                                      {.count = SimplexRows::kMostVertices,
+                                      {.count = kMostStarVertices,
                                        .given = space.vertex_count(),
                                        .enough = enough,
                                        .measures_left = true,

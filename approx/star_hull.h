@@ -18,6 +18,9 @@
 
 namespace ndhull {
 
+/// Beyond this the nearest points of so many vertices' hull take more time than all simplices.
+inline constexpr std::size_t kMostStarVertices = std::size_t{1} << 14;
+
 struct StarHull {
   std::vector<PointId> vertices;  ///< as the facets number them
   RowFacets facets;

@@ -99,9 +99,9 @@ void Approximation::grow_for_width(double outside_width, double slab) {
 /// Is it asked for in a way that stars can answer, which have no early end?
 bool Approximation::may_do_without_complex() const {
   const HullOptions& options = growth_.options();
-  return lengths_.width > 0.0 && accuracy_.facets == 0 && lengths_.outside_width == 0.0 &&
-         growth_.frame().rank >= 3 && !options.wants_simplices && options.limits.max_seconds == 0.0 &&
-         options.limits.max_facets == 0;
+  return !has_too_many_vertices_ && lengths_.width > 0.0 && accuracy_.facets == 0 &&
+         lengths_.outside_width == 0.0 && growth_.frame().rank >= 3 && !options.wants_simplices &&
+         options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
 }
 
 /// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
@@ -127,6 +127,10 @@ bool Approximation::find_stars(double outside_width, double slab) {
   const double vertices = static_cast<double>(work.counters.insertions) + rank + 1.0;
   const double more = 1.0 + static_cast<double>(work.points_outside) / vertices;
   const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab));
+  // Vertices rise with about half of that exponent on spheres; on other sets slower.
+  has_too_many_vertices_ =
+      vertices * std::min(more, std::pow(fall, (rank - 1.0) / 4.0)) > static_cast<double>(kMostStarVertices);
+  if (has_too_many_vertices_) return false;
   const double rows = static_cast<double>(enough) * std::min(more * more, std::pow(fall, (rank - 1.0) / 3.0));
   const bool is_too_large =
       input_bytes_ >= kLargeInput &&

@@ -23,8 +23,8 @@
 namespace ndhull {
 
 struct StarOptions {
-  std::uint64_t most_rows = UINT32_MAX - 1;  ///< more simplices, and it is given up
-  std::uint64_t most_table_rows = 0;         ///< the same for the tables of one star; 0: no limit
+  std::uint64_t most_rows = std::uint64_t{1} << 28;  ///< more simplices, and it is given up
+  std::uint64_t most_table_rows = 0;                 ///< the same for the tables of one star; 0: no limit
   /// Asked after each star, by any thread: give up? Tells how many stars there are by then, and simplices.
   std::function<bool(std::size_t, std::uint64_t)> gives_up = {};
 };
