@@ -46,12 +46,18 @@ std::vector<PointId> corners_of(const CertifiedGrowth& growth, const SimplicialC
   return corners;
 }
 
+Eigen::MatrixXd columns_of(const WidthSpace& space, std::span<const std::uint32_t> rows) {
+  Eigen::MatrixXd columns(static_cast<Index>(space.rank()), static_cast<Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    columns.col(static_cast<Index>(i)) =
+        Eigen::Map<const Eigen::VectorXd>(space.row(rows[i]), columns.rows());
+  return columns;
+}
+
 /// Of each of these rows the gap between it and the hull of the others of them.
 std::vector<HullDistance> distances_from_others(const WidthSpace& space,
                                                 std::span<const std::uint32_t> rows) {
-  Eigen::MatrixXd all(static_cast<Index>(space.rank()), static_cast<Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    all.col(static_cast<Index>(i)) = Eigen::Map<const Eigen::VectorXd>(space.row(rows[i]), all.rows());
+  const Eigen::MatrixXd all = columns_of(space, rows);
   std::vector<HullDistance> found(rows.size());
   constexpr std::size_t kAtATime = 16;
   for_each_block(rows.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
@@ -104,12 +110,7 @@ std::optional<ChosenVertices> choose_vertices(const WidthSpace& space, double en
   }
   if (chosen.rows.size() <= rank) return std::nullopt;
   // Those left out because each is near another that was left out as well.
-  std::vector<PointId> hull;
-  for (const std::uint32_t row : chosen.rows) hull.push_back(PointId{row});
-  Eigen::MatrixXd columns(static_cast<Index>(rank), static_cast<Index>(hull.size()));
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    columns.col(static_cast<Index>(i)) =
-        Eigen::Map<const Eigen::VectorXd>(space.row(hull[i].value), columns.rows());
+  const Eigen::MatrixXd columns = columns_of(space, chosen.rows);
   const double room = 1e-3 * enough;
   for (const std::uint32_t row : chosen.others) {
     const Eigen::Map<const Eigen::VectorXd> point(space.row(row), columns.rows());
