@@ -111,25 +111,31 @@ void CertifiedGrowth::start() {
   if (!work_.waiting.empty()) grow_before_placing();
 }
 
-/// Pauses at certain sizes. Not for the first few simplices: small hulls are done before anything else has
-/// begun.
+/// Pauses at certain sizes where most points were shifted. Not for the first few simplices: small hulls are
+/// done before anything else has begun.
 GrowthStop CertifiedGrowth::grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise) {
   if (!find_otherwise) return grow(work_);
   constexpr std::uint64_t kFirstAsked = 2048, kMostBetween = std::uint64_t{1} << 20;
-  std::uint64_t rows = std::max(kFirstAsked, 2 * (work_.complex.row_count - work_.free_count));
+  const auto live_rows = [this] { return work_.complex.row_count - work_.free_count; };
+  std::uint64_t rows = std::max<std::uint64_t>(kFirstAsked, 2 * live_rows());
   for (;;) {
     work_.options.pause_rows = rows;
+    work_.options.pause_shifted = 0.5;
     const GrowthStop stop = grow(work_);
     work_.options.pause_rows = 0;
+    work_.options.pause_shifted = 0.0;
     if (stop != GrowthStop::kPaused) return stop;
-    if (2 * work_.shifted_points.size() >= work_.counters.insertions && find_otherwise(rows)) return stop;
-    rows += std::min(rows, kMostBetween);
+    std::uint64_t next = rows;
+    for (; next <= live_rows(); next += std::min(next, kMostBetween)) rows = next;
+    if (find_otherwise(rows)) return stop;
+    rows = next;
   }
 }
 
 bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& find_otherwise) {
   std::uint64_t searched_all = 0;
   start();
+  work_.options.in_regions = !options_.limits.has_any();
   for (std::uint64_t round = 0;; ++round) {
     Clock::time_point phase_start = Clock::now();
     const GrowthStop stop = grow_asking(find_otherwise);

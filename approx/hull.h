@@ -36,6 +36,7 @@ struct Limits {
   /// What the machine has for them: ends growth where max_memory_bytes is 0, and changes nothing before.
   std::uint64_t machine_memory_bytes = 0;
 
+  bool has_any() const { return max_facets > 0 || max_seconds > 0.0 || max_memory_bytes > 0; }
   std::uint64_t most_memory() const { return max_memory_bytes > 0 ? max_memory_bytes : machine_memory_bytes; }
 };
 

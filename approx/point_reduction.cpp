@@ -8,6 +8,8 @@
 #include "approx/direction_extremes.h"
 #include "approx/inner_ellipsoid.h"
 #include "approx/row_bits.h"
+#include "approx/sample_hull.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -20,13 +22,10 @@ namespace {
 /// take the extremes of among the part of the points that are furthest out.
 constexpr std::size_t kSample = 1 << 14;
 constexpr std::size_t kDirections = 256, kFurthestPart = 64;
-/// Points of the sample whose hull of so many simplices, for each dimension, holds none of them where most
-/// points are vertices: on spheres.
-constexpr std::size_t kFirstSample = 2048, kFirstRows = 128;
-/// Points that are located at a time: what membership takes for one block.
-constexpr std::size_t kLocatedAtATime = 512;
-/// A point this far inside the hull is dropped. [ratio] As CertifiedGrowth has it.
-constexpr double kDroppedInside = 1e-9;
+/// And in the one that tells whether that is worth it.
+constexpr std::size_t kFirstSample = 2048;
+/// Points that are located at a time: what membership takes for one block. And rows that are copied.
+constexpr std::size_t kLocatedAtATime = 512, kCopiedAtATime = 1024;
 /// Passes at most, simplices at most, and points for each simplex that make a hull of so many worth growing.
 constexpr int kPasses = 4;
 constexpr std::size_t kMostRows = 250'000, kPointsForARow = 16;
@@ -67,7 +66,8 @@ class Reduction {
   }
 
   std::vector<std::uint32_t> run(const std::function<bool()>& is_late) {
-    if (holds_none() || !find_ranges() || !start()) return all_candidates();
+    if (!find_frame() || !find_ranges()) return all_candidates();
+    start();
     const std::size_t most_rows = std::min(kMostRows, shards_.rows / kPointsForARow);
     std::size_t left = shards_.rows, rows = most_rows / kMoreRows;
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -139,66 +139,62 @@ class Reduction {
   /// Some `count` points, evenly spread over the rows.
   std::vector<double> take_sample(std::size_t count) const {
     const std::size_t dimension = shards_.dimension, step = std::max<std::size_t>(1, shards_.rows / count);
-    std::vector<double> sample;
-    RowCopier copier(shards_);
+    std::vector<std::size_t> rows;
     for (const PointShard& part : shards_.parts) {
       const std::size_t end = part.first_row + part.points.rows;
-      for (std::size_t row = (part.first_row + step - 1) / step * step; row < end; row += step) {
-        sample.resize(sample.size() + dimension);
-        copier.copy(row, sample.data() + sample.size() - dimension);
-      }
+      for (std::size_t row = (part.first_row + step - 1) / step * step; row < end; row += step)
+        rows.push_back(row);
     }
+    std::vector<double> sample(rows.size() * dimension);
+    for_each_block(rows.size(), kCopiedAtATime, [&](std::size_t begin, std::size_t end) {
+      RowCopier copier(shards_);
+      for (std::size_t i = begin; i < end; ++i) copier.copy(rows[i], sample.data() + i * dimension);
+    });
     return shards_.all_gather(std::move(sample));
   }
 
-  /// Is no point of a small sample inside a small hull of it? Then a larger hull holds hardly any either.
-  bool holds_none() const {
-    constexpr std::size_t kLookedAt = 512;
+  /// The sample and its frame; false when it spans less than all dimensions, or when most points are
+  /// vertices.
+  bool find_frame() {
     const std::size_t dimension = shards_.dimension;
     if (dimension < 2 || dimension > kMaxRank) return false;
-    const std::vector<double> sample = take_sample(kFirstSample);
-    if (!std::all_of(sample.begin(), sample.end(), [](double x) { return std::isfinite(x); })) return false;
-    const PointView view = PointView::row_major(sample.data(), sample.size() / dimension, dimension);
-    const Frame frame = fit_frame(view);
-    if (frame.rank < dimension) return false;
-    std::vector<double> coordinates(sample.size() + kPadding);
-    map_points(view, frame, coordinates.data());
-    GrowthWork work;
-    work.rank = dimension;
-    work.point_count = view.rows;
-    work.points = coordinates.data();
-    work.options.seed = work_.options.seed;
-    work.options.pause_rows = kFirstRows * dimension;
-    start_growth(work, frame.simplex, FirstPoints());
-    grow(work);
-    std::vector<PointId> ids;
-    for (std::size_t row = 0; row < view.rows; row += 1 + view.rows / kLookedAt)
-      ids.push_back(PointId{static_cast<std::uint32_t>(row)});
-    const HullBall ball = find_ball(dimension, coordinates.data(), view.rows, frame.simplex);
-    const std::vector<LocatedPoint> located = try_inside(work.complex, coordinates.data(), ball, ids);
-    return std::none_of(located.begin(), located.end(),
-                        [](const LocatedPoint& point) { return point.gauge < -kDroppedInside; });
+    const std::vector<double> first = take_sample(kFirstSample);
+    sample_ = take_sample(kSample);
+    const auto is_finite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(first.begin(), first.end(), is_finite)) return false;
+    if (!std::all_of(sample_.begin(), sample_.end(), is_finite)) return false;
+    bool is_held = false;
+    const PointView first_view = PointView::row_major(first.data(), first.size() / dimension, dimension);
+    const auto hold = [&] { is_held = holds_some_of(first_view, work_.options.seed); };
+    const auto fit = [&] { frame_ = fit_frame(sample()); };
+    if (has_more_threads()) {  // the frame may be found for nothing
+      for_each_block(2, 1, [&](std::size_t task, std::size_t) { task == 0 ? hold() : fit(); });
+    } else {
+      hold();
+      if (is_held) fit();
+    }
+    return is_held && frame_.rank == dimension;
   }
 
-  /// The frame and the first simplex, of a sample; false when it spans less than all dimensions.
-  bool start() {
+  PointView sample() const {
+    return PointView::row_major(sample_.data(), sample_.size() / shards_.dimension, shards_.dimension);
+  }
+
+  /// The first simplex, of the sample and the points that are furthest along some directions.
+  void start() {
     const std::size_t dimension = shards_.dimension;
-    const std::vector<double> sample = take_sample(kSample);
-    const PointView view = PointView::row_major(sample.data(), sample.size() / dimension, dimension);
-    frame_ = fit_frame(view);
-    if (frame_.rank < dimension || dimension < 2 || dimension > kMaxRank) return false;
-    append(view);
-    sample_size_ = view.rows;
+    append(sample());
+    sample_size_ = work_.point_count;
     const RowList extremes = find_direction_extremes(shards_, frame_, length_of_furthest(),
                                                      kDirections * dimension, work_.options.seed);
     append(PointView::row_major(extremes.rows.data(), extremes.ids.size(), dimension));
     ball_ = find_ball(dimension, coordinates_.data(), work_.point_count, frame_.simplex);
     const double reach = reach_of_all();
     ball_.reach = std::max(ball_.reach, reach);
-    ellipsoid_ = InnerEllipsoid(frame_, coordinates_.data(), view.rows, reach);
+    ellipsoid_ = InnerEllipsoid(frame_, coordinates_.data(), sample_size_, reach);
     work_.rank = dimension;
+    work_.options.in_regions = true;
     start_growth(work_, frame_.simplex, FirstPoints());
-    return true;
   }
 
   /// Appends points to those that the hull is grown from.
@@ -372,6 +368,7 @@ class Reduction {
   std::vector<ShardBlock> blocks_;
   std::vector<RowBits> candidates_;  // of each part
   std::vector<double> low_, high_;   // of each column
+  std::vector<double> sample_;       // some points of all
   Frame frame_;
   std::vector<double> coordinates_;  // of the points that the hull is grown from
   std::size_t sample_size_ = 0;      // of these, the first

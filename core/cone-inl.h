@@ -25,7 +25,7 @@ void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t beg
   alignas(64) double apex[D];
   for (std::size_t k = 0; k < D; ++k) apex[k] = point(apex_id)[k];
   constexpr std::size_t kAhead = 8;
-  const std::size_t free_count = work_.free_count, row_count = work_.complex.row_count;
+  const std::size_t free_count = books_.free_count, row_count = books_.row_count;
   for (std::size_t i = begin; i < end; ++i) {
     if (i + kAhead < end) {
       const HorizonRidge& later = horizon_[i + kAhead];
@@ -33,14 +33,14 @@ void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t beg
       __builtin_prefetch(plane(visible_[later.visible_index]));
       __builtin_prefetch(vertices(visible_[later.visible_index]), 1);
       if (i + kAhead < free_count) {
-        __builtin_prefetch(plane(work_.free_rows[free_count - kAhead - 1 - i]), 1);
-        __builtin_prefetch(vertices(work_.free_rows[free_count - kAhead - 1 - i]), 1);
+        __builtin_prefetch(plane(books_.free_rows[free_count - kAhead - 1 - i]), 1);
+        __builtin_prefetch(vertices(books_.free_rows[free_count - kAhead - 1 - i]), 1);
       }
     }
     const HorizonRidge ridge = horizon_[i];
     const std::uint32_t visible = visible_[ridge.visible_index];
     // Rows freed last first, then rows never used.
-    const std::uint32_t row = i < free_count ? work_.free_rows[free_count - 1 - i]
+    const std::uint32_t row = i < free_count ? books_.free_rows[free_count - 1 - i]
                                              : static_cast<std::uint32_t>(row_count + (i - free_count));
     new_rows_[i] = row;
 
@@ -62,7 +62,7 @@ void Grower<D>::make_ridges(std::uint32_t apex_id, double shift, std::size_t beg
       hn::StoreU(hn::LoadU(tag, old_vertices + k), tag, made_vertices + k);
     });
     made_vertices[ridge.slot] = apex_id;
-    state_[row] = SimplexState::kLive;
+    if (region_ == nullptr) state_[row] = SimplexState::kLive;
     neighbours(visible)[ridge.slot] = row | kNewBit;
     if (i >= begin + D) join_siblings(i - D);
   }
@@ -97,10 +97,10 @@ void Grower<D>::touch_new_rows() {
   constexpr std::size_t kBytesAhead = std::size_t{1} << 22, kHugePage = std::size_t{1} << 21, kPage = 4096;
   constexpr std::size_t kRowBytes = D * sizeof(double);  // of planes, and of the topology
   constexpr std::size_t kSmallHull = std::size_t{1} << 18;
-  const std::size_t reused = std::min(work_.free_count, horizon_count_);
-  const std::size_t needed = work_.complex.row_count + horizon_count_ - reused;
+  const std::size_t reused = std::min(books_.free_count, horizon_count_);
+  const std::size_t needed = books_.row_count + horizon_count_ - reused;
   if (needed <= touched_rows_ || needed * kRowBytes < kSmallHull || !has_team()) return;
-  const std::size_t first = std::max(touched_rows_, work_.complex.row_count);
+  const std::size_t first = std::max(touched_rows_, books_.row_count);
   const std::size_t last = std::min(needed + kBytesAhead / kRowBytes, work_.complex.state.capacity());
   // A block is a huge page of either table: both come to new pages at the same time.
   const std::size_t blocks = (kHugePage + (last - first) * kRowBytes - 1) / kHugePage + 1;
@@ -122,10 +122,10 @@ void Grower<D>::touch_new_rows() {
 template <std::size_t D>
 void Grower<D>::clear_new_rows() {
   constexpr std::size_t kAhead = 1024;  // a page of heads
-  const std::size_t needed = work_.complex.row_count + horizon_count_;
+  const std::size_t needed = books_.row_count + horizon_count_;
   if (needed <= cleared_rows_) return;
-  const std::size_t first = std::max(cleared_rows_, work_.complex.row_count);
-  const std::size_t last = std::min(needed + kAhead, work_.complex.state.capacity());
+  const std::size_t first = std::max(cleared_rows_, books_.row_count);
+  const std::size_t last = std::max(first, std::min(needed + kAhead, row_end()));
   std::fill(head_ + first, head_ + last, 0u);
   std::fill(marks_.data() + first, marks_.data() + last, std::uint8_t{0});
   for (std::size_t s = 1; s < shares_.size(); ++s)
@@ -140,17 +140,17 @@ void Grower<D>::make_cone(std::uint32_t apex_id, double shift) {
   for_many(horizon_count_,
            [&](std::size_t begin, std::size_t end) { make_ridges(apex_id, shift, begin, end); });
   new_count_ = horizon_count_;
-  const std::size_t reused = std::min(work_.free_count, new_count_);
-  work_.free_count -= reused;
-  work_.complex.row_count += new_count_ - reused;
+  const std::size_t reused = std::min(books_.free_count, new_count_);
+  books_.free_count -= reused;
+  books_.row_count += new_count_ - reused;
 }
 
 template <std::size_t D>
 void Grower<D>::undo_cone() {
   for (std::size_t i = 0; i < new_count_; ++i) {
     neighbours(visible_[horizon_[i].visible_index])[horizon_[i].slot] = horizon_[i].hidden;
-    state_[new_rows_[i]] = SimplexState::kFree;
-    work_.free_rows[work_.free_count++] = new_rows_[i];
+    if (region_ == nullptr) state_[new_rows_[i]] = SimplexState::kFree;
+    books_.free_rows[books_.free_count++] = new_rows_[i];
   }
 }
 

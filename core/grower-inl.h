@@ -21,7 +21,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -30,6 +29,8 @@
 #include "core/blocks.h"
 #include "core/error.h"
 #include "core/growth.h"
+#include "core/growth_region.h"
+#include "core/phase_clock.h"
 #include "core/team.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,24 +68,6 @@ HWY_INLINE Vec scramble(Tag tag, Vec x) {  // the same, of each lane
 constexpr std::uint32_t kNewBit = 0x8000'0000u;  // marks, in a visible simplex, the new one over its ridge
 constexpr std::uint32_t kNoRow = 0xFFFF'FFFFu;
 
-/// Adds the time since the last lap to a counter, when asked to.
-class PhaseClock {
- public:
-  explicit PhaseClock(bool on) : on_(on) {
-    if (on_) last_ = std::chrono::steady_clock::now();
-  }
-  void lap(double& seconds) {
-    if (!on_) return;
-    const auto now = std::chrono::steady_clock::now();
-    seconds += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  bool on_;
-  std::chrono::steady_clock::time_point last_;
-};
-
 /// A ridge where the visible set ends.
 struct HorizonRidge {
   std::uint32_t visible_index;  // into the visible list
@@ -100,6 +83,7 @@ struct SearchResult {
   HorizonRidge* horizon;
   std::size_t visible_count, horizon_count;
   double lowest, highest;  // smallest gauge tested above the threshold, largest not above it
+  bool is_cut;             // it met a simplex that is not of the region
 };
 
 /// One of the parts of a wave that several threads search from.
@@ -127,7 +111,26 @@ template <std::size_t D>
 class Grower {
  public:
   explicit Grower(GrowthWork& work)
+      : Grower(
+            work, team_threads(kMostThreads), nullptr,
+            {work.free_rows, work.free_count, work.complex.row_count, work.points_outside, work.counters}) {}
+  ~Grower();
+
+  GrowthStop run();
+
+ private:
+  /// What one grower alone changes. Regions that grow at the same time have each their own.
+  struct Books {
+    HugeArray<std::uint32_t>& free_rows;
+    std::size_t &free_count, &row_count;
+    std::uint64_t& points_outside;
+    GrowthCounters& counters;
+  };
+
+  Grower(GrowthWork& work, std::size_t threads, GrowthRegion* region, Books books)
       : work_(work),
+        region_(region),
+        books_(books),
         planes_(work.complex.planes.data()),
         topology_(work.complex.topology.data()),
         state_(work.complex.state.data()),
@@ -137,12 +140,9 @@ class Grower {
         visible_gauge_(work.complex.state.capacity()),
         horizon_(work.complex.state.capacity() * D),
         new_rows_(work.complex.state.capacity()),
-        threads_(team_threads(kMostThreads)),
+        threads_(threads),
         marks_(work.complex.state.capacity()) {}
 
-  GrowthStop run();
-
- private:
   // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
   // result.
   static constexpr std::size_t kManyVisible = 192, kManyRidges = 384, kRidgesInBlock = 96;
@@ -154,6 +154,7 @@ class Grower {
   std::uint32_t* neighbours(std::uint32_t row) { return topology_ + std::size_t{row} * 2 * D + D; }
   const double* point(std::uint32_t id) const { return points_ + std::size_t{id} * D; }
 
+  template <bool kInRegion>
   void find_visible(const double* apex, std::uint32_t seed, double threshold);
   void next_marks();
   std::uint8_t visible_mark() const { return static_cast<std::uint8_t>(hidden_mark_ + 1); }
@@ -162,9 +163,11 @@ class Grower {
   void make_shares();
   void mark_found_alone(std::uint8_t* marks);
   void search_wave(const double* apex, double threshold, std::size_t begin, std::size_t end);
+  template <bool kInRegion>
   std::size_t search(const double* apex, double threshold, std::uint8_t* marks, std::size_t begin,
                      std::size_t end, SearchResult& result);
   void list_first_met(std::uint8_t* marks, std::size_t begin, std::size_t end, FirstMet<D>& met);
+  template <bool kInRegion>
   void test_first_met(const double* apex, double threshold, std::uint8_t* marks, const FirstMet<D>& met,
                       SearchResult& result);
   void collect_horizon(const std::uint8_t* marks, std::size_t begin, std::size_t end, SearchResult& result);
@@ -201,14 +204,34 @@ class Grower {
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
   bool room_for_cone();
-  std::size_t live_rows() const { return work_.complex.row_count - work_.free_count; }
+  std::size_t row_end() const;
+  std::size_t live_rows() const { return books_.row_count - books_.free_count; }
   bool cone_is_sphere();
   std::size_t list_subridges(std::size_t index, std::uint64_t* keys, std::size_t count);
   bool subridges_differ();
   bool cone_is_connected();
+  template <bool kInRegion>
   std::uint32_t locate(const double* y, std::uint32_t row, double& gauge);
+  void put_outside(std::uint32_t id, std::uint32_t row, double height);
+  void take_outside(std::uint32_t id);
+
+  bool is_to_pause(double furthest) const;
+  bool may_grow_in_regions();
+  bool grow_in_regions(double furthest);
+  void make_regions();
+  void list_apexes(double furthest);
+  RegionBorder choose_border(std::uint64_t direction);
+  bool part_into_regions(double furthest);
+  void lend_rows();
+  void join_regions(double seconds);
+  void grow_region();
+  bool insert_in_region(std::uint32_t apex_id, std::uint32_t row);
+  bool is_in_region(const double* record) const;
+  bool cone_is_in_region() const;
 
   GrowthWork& work_;
+  GrowthRegion* const region_;  // null: all of space
+  const Books books_;
   double* planes_;
   std::uint32_t* topology_;
   SimplexState* state_;
@@ -233,11 +256,19 @@ class Grower {
   std::vector<std::uint32_t> moved_;                 // points whose simplices are gone
   std::vector<NewPlace> new_places_;
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
+  bool is_cut_ = false;                       // the last search ended at the region's border
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
   double highest_hidden_ = 0.0;               // largest gauge tested not above it
   std::vector<std::uint64_t> subridge_keys_;  // XOR of random keys of the vertices; 0: free
   std::vector<std::uint64_t> subridges_late_;
   std::vector<std::uint32_t> cone_walk_;
+
+  std::vector<GrowthRegion> regions_;  // none before it pays
+  std::vector<std::unique_ptr<Grower>> in_regions_;
+  std::vector<std::uint32_t> high_;
+  std::vector<RegionApex> apexes_;      // points that may be added by regions
+  std::vector<double> duals_, values_;  // of their simplices
+  RegionCounters parting_;
 };
 
 // Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
@@ -248,7 +279,7 @@ double Grower<D>::draw_shift(std::uint32_t apex_id, unsigned attempt) const {
   const std::uint64_t random =
       scramble(work_.options.seed ^ scramble((std::uint64_t{apex_id} << 8) + attempt));
   const double chance = static_cast<double>(random >> 11) * 0x1p-53;
-  const double inserted = static_cast<double>(work_.counters.insertions);
+  const double inserted = static_cast<double>(books_.counters.insertions);
   constexpr double kRising = 0.85;     // of the interval; the rest is left to chance
   constexpr double kHalfRisen = 64.0;  // insertions
   return work_.options.shift *
@@ -262,8 +293,8 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
   PhaseClock clock(work_.measure_phases);
   for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
     double shift = draw_shift(apex_id, attempt);
-    find_visible(point(apex_id), seed, shift);
-    clock.lap(work_.counters.seconds_visible);
+    find_visible<false>(point(apex_id), seed, shift);
+    clock.lap(books_.counters.seconds_visible);
     if (!room_for_cone()) return Outcome::kNoRoom;
     if (work_.options.max_rows != 0 &&
         live_rows() + horizon_count_ - visible_count_ > work_.options.max_rows) {
@@ -274,22 +305,22 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     if (certain) shift = 0.0;
     share_searches();
     make_cone(apex_id, shift);
-    clock.lap(work_.counters.seconds_cone);
+    clock.lap(books_.counters.seconds_cone);
     match_cone();
     const bool sound = certain || (horizon_count_ > 0 && cone_is_sphere());
-    clock.lap(work_.counters.seconds_match);
+    clock.lap(books_.counters.seconds_match);
     if (!sound) {
-      ++work_.counters.rejected;
+      ++books_.counters.rejected;
       undo_cone();
       continue;
     }
     commit();
-    work_.counters.created += new_count_;
-    ++work_.counters.insertions;
+    books_.counters.created += new_count_;
+    ++books_.counters.insertions;
     if (shift > 0.0) work_.shifted_points.push_back(apex_id);
-    clock.lap(work_.counters.seconds_match);
+    clock.lap(books_.counters.seconds_match);
     partition(apex_id);
-    clock.lap(work_.counters.seconds_partition);
+    clock.lap(books_.counters.seconds_partition);
     return Outcome::kAdded;
   }
   return Outcome::kRejected;
@@ -310,10 +341,16 @@ void Grower<D>::share_searches() {
 
 template <std::size_t D>
 bool Grower<D>::room_for_cone() {
-  const std::size_t needed = horizon_count_ > work_.free_count ? horizon_count_ - work_.free_count : 0;
-  std::size_t most = work_.complex.state.capacity();
-  if (work_.options.most_table_rows != 0) most = std::min<std::size_t>(most, work_.options.most_table_rows);
-  return work_.complex.row_count + needed <= most;
+  const std::size_t needed = horizon_count_ > books_.free_count ? horizon_count_ - books_.free_count : 0;
+  return books_.row_count + needed <= row_end();
+}
+
+template <std::size_t D>
+bool Grower<D>::is_to_pause(double furthest) const {
+  const GrowthOptions& options = work_.options;
+  return options.pause_rows != 0 && live_rows() >= options.pause_rows && furthest <= options.pause_height &&
+         static_cast<double>(work_.shifted_points.size()) >=
+             options.pause_shifted * static_cast<double>(books_.counters.insertions);
 }
 
 template <std::size_t D>
@@ -323,23 +360,23 @@ GrowthStop Grower<D>::run() {
     const OutsideHeights::Furthest furthest = work_.heights.furthest();
     const std::uint32_t row = furthest.row;
     if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;
-    if (work_.options.pause_rows != 0 && live_rows() >= work_.options.pause_rows &&
-        furthest.height <= work_.options.pause_height) {
+    if (is_to_pause(furthest.height)) {
       work_.options.pause_rows = 0;
       return GrowthStop::kPaused;
     }
-    const std::uint32_t apex_id = head_[row] - 1;
-    if (work_.options.poll && work_.counters.created >= polled_at) {
-      const GrowthStop stop = work_.options.poll(work_.points_outside, furthest.height);
+    if (work_.options.poll && books_.counters.created >= polled_at) {
+      const GrowthStop stop = work_.options.poll(books_.points_outside, furthest.height);
       if (stop != GrowthStop::kNoOutsidePoints) return stop;
-      polled_at = work_.counters.created + 4096;
+      polled_at = books_.counters.created + 4096;
     }
+    if (may_grow_in_regions() && grow_in_regions(furthest.height)) continue;
+    const std::uint32_t apex_id = head_[row] - 1;
     switch (insert(apex_id, row)) {
       case Outcome::kAdded: break;
       case Outcome::kNoRoom: return GrowthStop::kMemoryLimit;
       case Outcome::kPastLimit: return GrowthStop::kFacetLimit;
       case Outcome::kRejected:  // certify will measure what it costs
-        ++work_.counters.set_aside;
+        ++books_.counters.set_aside;
         take_from_outside(work_, apex_id);
         break;
     }

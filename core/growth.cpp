@@ -31,8 +31,9 @@ std::size_t row_capacity(std::size_t rank) {
   const auto machine_bytes =
       static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t row_bytes = 16 * rank;
-  // With lists of visible simplices and of ridges, one for growth and one for each of two threads.
-  const std::size_t reserved_bytes = row_bytes + 16 + 3 * (12 * rank + 16);
+  // With lists of visible simplices and of ridges, one for growth and one for each of two threads and
+  // regions.
+  const std::size_t reserved_bytes = row_bytes + 16 + 5 * (12 * rank + 16);
   constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
   return std::min({2 * machine_bytes / row_bytes, address_space() / 5 * 2 / reserved_bytes, kMostRows});
 }
@@ -87,6 +88,18 @@ double height_of_few(const GrowthWork& work, std::size_t few) {
 
 }  // namespace
 
+void GrowthCounters::add(const GrowthCounters& other, double share) {
+  created += other.created;
+  insertions += other.insertions;
+  rejected += other.rejected;
+  set_aside += other.set_aside;
+  in_regions += other.in_regions;
+  seconds_visible += share * other.seconds_visible;
+  seconds_cone += share * other.seconds_cone;
+  seconds_match += share * other.seconds_match;
+  seconds_partition += share * other.seconds_partition;
+}
+
 double height_above(const GrowthWork& work, std::uint32_t row, double gauge) {
   const std::vector<double>& factor = work.options.gradient_factor;
   if (factor.empty()) return gauge;
@@ -106,6 +119,11 @@ double least_height(const GrowthWork& work) {
 
 void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height) {
   work.heights.put(point, row, height);
+  link_outside(work, point, row, height);
+  ++work.points_outside;
+}
+
+void link_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height) {
   std::uint32_t& head = work.complex.outside_head[row];
   if (head != 0 && height <= work.heights.height(head - 1)) {
     work.next_outside[point] = work.next_outside[head - 1];
@@ -114,7 +132,6 @@ void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, doub
     work.next_outside[point] = head;
     head = point + 1;
   }
-  ++work.points_outside;
 }
 
 void take_from_outside(GrowthWork& work, std::uint32_t point) {

@@ -37,10 +37,14 @@ struct GrowthOptions {
   /// set.
   std::vector<double> gradient_factor;
   std::uint64_t seed = 1;
-  /// Growth returns kPaused once when it has this many simplices and no point is more than pause_height
-  /// above; 0: never.
+  /// Growth returns kPaused once when it has this many simplices, no point is more than pause_height above,
+  /// and this part of the points added was shifted; 0 rows: never.
   std::uint64_t pause_rows = 0;
   double pause_height = HUGE_VAL;
+  double pause_shifted = 0.0;
+  /// Points far apart may be added side by side where insertions have become small: the furthest of all is
+  /// then not always next. Only without limits: an early end should have the furthest points.
+  bool in_regions = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
@@ -52,7 +56,12 @@ struct GrowthCounters {
   std::uint64_t insertions = 0;  ///< points added
   std::uint64_t rejected = 0;    ///< insertions tried that did not close and were undone
   std::uint64_t set_aside = 0;   ///< points given up after all tries; certify finds out what they cost
+  std::uint64_t in_regions = 0;  ///< of the insertions: made by regions
   double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
+
+  double seconds() const { return seconds_visible + seconds_cone + seconds_match + seconds_partition; }
+  /// `share`: of the seconds.
+  void add(const GrowthCounters& other, double share);
 };
 
 /// Everything that growth works on. Plain tables: the phases are free functions.
@@ -106,6 +115,9 @@ void forget_outside(GrowthWork& work);
 /// Puts `point`, which is in no outside set, into that of simplex `row`, which it is above by `height`. The
 /// furthest point of a set comes first, the rest in no order.
 void push_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height);
+
+/// Of that the part that concerns the set alone.
+void link_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, double height);
 
 /// Takes `point` out of the outside set that it is in. Cost O(points in the set).
 void take_from_outside(GrowthWork& work, std::uint32_t point);

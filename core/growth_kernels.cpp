@@ -14,6 +14,7 @@
 #include "core/grower-inl.h"
 #include "core/match-inl.h"
 #include "core/partition-inl.h"
+#include "core/regions-inl.h"
 #include "core/shared_search-inl.h"
 #include "core/visible_set-inl.h"
 

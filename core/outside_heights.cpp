@@ -66,4 +66,20 @@ OutsideHeights::Furthest OutsideHeights::furthest() {
   return {height, height == kNotOutside ? 0 : lowest_row(top, 0, height)};
 }
 
+void OutsideHeights::list_above(double height, std::vector<std::uint32_t>& points) const {
+  list_above(levels_.size() - 1, 0, height, points);
+}
+
+void OutsideHeights::list_above(std::size_t level, std::size_t block, double height,
+                                std::vector<std::uint32_t>& points) const {
+  for (std::size_t index = block * kBlock; index < (block + 1) * kBlock; ++index) {
+    if (!(levels_[level].values[index] > height)) continue;
+    if (level == 0) {
+      points.push_back(static_cast<std::uint32_t>(index));
+    } else {
+      list_above(level - 1, index, height, points);
+    }
+  }
+}
+
 }  // namespace ndhull

@@ -37,6 +37,19 @@ class OutsideHeights {
   }
   void remove(std::uint32_t point) { write(0, point, kNotOutside); }
 
+  /// As `put` and `remove`, for different points at the same time; `settle` each point before the furthest is
+  /// asked for.
+  void put_apart(std::uint32_t point, std::uint32_t row, double height) {
+    rows_[point] = row;
+    levels_[0].values[point] = height;
+  }
+  void settle(std::uint32_t point) {
+    if (levels_.size() > 1) mark_dirty(1, point / kBlock);
+  }
+
+  /// Appends the points that are higher than `height`, in ascending order. To be asked after `furthest`.
+  void list_above(double height, std::vector<std::uint32_t>& points) const;
+
   /// Of a point in an outside set: whose.
   std::uint32_t row(std::uint32_t point) const { return rows_[point]; }
   double height(std::uint32_t point) const { return levels_[0].values[point]; }
@@ -71,6 +84,8 @@ class OutsideHeights {
   void mark_dirty(std::size_t level, std::size_t block);
   double largest_in_block(std::size_t level, std::size_t block) const;
   std::uint32_t lowest_row(std::size_t level, std::size_t block, double height) const;
+  void list_above(std::size_t level, std::size_t block, double height,
+                  std::vector<std::uint32_t>& points) const;
 
   std::vector<Level> levels_;  // the last one has one block
   std::vector<std::uint32_t> rows_;

@@ -14,8 +14,10 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-// Hill climbing on the dual graph: a linear program whose vertices are the simplices.
+// Hill climbing on the dual graph: a linear program whose vertices are the simplices. In a region it may halt
+// at the border: then the gauge is NaN.
 template <std::size_t D>
+template <bool kInRegion>
 std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gauge) {
   double best = gauge_above<D>(plane(row), y);
   for (;;) {
@@ -29,6 +31,10 @@ std::uint32_t Grower<D>::locate(const double* y, std::uint32_t row, double& gaug
       }
     }
     if (best_row == row) break;
+    if (kInRegion && !is_in_region(plane(best_row))) {
+      gauge = NAN;
+      return row;
+    }
     row = best_row;
   }
   gauge = best;
@@ -42,8 +48,8 @@ void Grower<D>::free_visible(std::size_t begin, std::size_t end, std::vector<std
   for (std::size_t i = begin; i < end; ++i) {
     if (i + kAhead < end) __builtin_prefetch(head_ + visible_[i + kAhead]);
     const std::uint32_t row = visible_[i];
-    state_[row] = SimplexState::kFree;
-    work_.free_rows[work_.free_count + i] = row;
+    if (region_ == nullptr) state_[row] = SimplexState::kFree;
+    books_.free_rows[books_.free_count + i] = row;
     if (head_[row] != 0) with_points.push_back(row);
   }
 }
@@ -64,7 +70,7 @@ void Grower<D>::partition(std::uint32_t apex) {
   } else {
     free_part(0, visible_count_);
   }
-  work_.free_count += visible_count_;
+  books_.free_count += visible_count_;
   moved_.clear();
   for (const std::vector<std::uint32_t>& rows : emptied_) {
     for (const std::uint32_t row : rows) {
@@ -73,9 +79,9 @@ void Grower<D>::partition(std::uint32_t apex) {
       while (next != 0) {
         const std::uint32_t id = next - 1;
         next = work_.next_outside[id];
-        --work_.points_outside;
+        --books_.points_outside;
         if (id == apex) {
-          work_.heights.remove(id);
+          take_outside(id);
           continue;
         }
         moved_.push_back(id);
@@ -96,8 +102,11 @@ void Grower<D>::place_moved() {
     std::uint32_t start = new_rows_[0];
     for (std::size_t i = begin; i < end; ++i) {
       double gauge = 0.0;
-      const std::uint32_t found = start = locate(point(moved_[i]), start, gauge);
+      const double* y = point(moved_[i]);
+      start = region_ ? locate<true>(y, start, gauge) : locate<false>(y, start, gauge);
+      const std::uint32_t found = start;
       new_places_[i].row = kNoRow;
+      if (std::isnan(gauge)) region_->halted.push_back({moved_[i], found});
       if (gauge <= 2.0 * work_.options.shift) continue;
       const double height = height_above(work_, found, gauge);
       if (height > least) new_places_[i] = {found, height};
@@ -111,9 +120,9 @@ void Grower<D>::place_moved() {
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     if (new_places_[i].row != kNoRow) {
-      push_outside(work_, moved_[i], new_places_[i].row, new_places_[i].height);
+      put_outside(moved_[i], new_places_[i].row, new_places_[i].height);
     } else {
-      work_.heights.remove(moved_[i]);
+      take_outside(moved_[i]);
     }
   }
   moved_.clear();

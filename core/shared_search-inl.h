@@ -51,9 +51,9 @@ void Grower<D>::search_wave(const double* apex, double threshold, std::size_t be
     SearchShare& share = shares_[s];
     if (s > 0) mark_found_alone(share_marks(s));
     share.result = {
-        share.visible.data(), share.gauge.data(), share.horizon.data(), 0, 0, HUGE_VAL, -HUGE_VAL};
-    search(apex, threshold, share_marks(s), begin + (end - begin) * s / parts,
-           begin + (end - begin) * (s + 1) / parts, share.result);
+        share.visible.data(), share.gauge.data(), share.horizon.data(), 0, 0, HUGE_VAL, -HUGE_VAL, false};
+    search<false>(apex, threshold, share_marks(s), begin + (end - begin) * s / parts,
+                  begin + (end - begin) * (s + 1) / parts, share.result);
   });
   // What a lower share found as well is marked as a duplicate of it (and what two lower ones found).
   for_shares([&](std::size_t s) {

@@ -64,6 +64,7 @@ HWY_INLINE void Grower<D>::list_first_met(std::uint8_t* marks, std::size_t begin
 
 /// Tests what was listed; the visible ones are appended in the order of the list.
 template <std::size_t D>
+template <bool kInRegion>
 HWY_INLINE void Grower<D>::test_first_met(const double* apex, double threshold, std::uint8_t* marks,
                                           const FirstMet<D>& met, SearchResult& result) {
   const std::uint8_t hidden = hidden_mark_;
@@ -72,9 +73,12 @@ HWY_INLINE void Grower<D>::test_first_met(const double* apex, double threshold, 
   double* const gauges = result.gauge;
   std::size_t count = result.visible_count;
   double lowest = result.lowest, highest = result.highest;
+  bool is_cut = false;
   for (std::size_t i = 0; i < met.count; ++i) {
     const std::uint32_t row = met.rows[i];
-    const double gauge = gauge_above<D>(planes + std::size_t{row} * D, apex);
+    const double* const record = planes + std::size_t{row} * D;
+    if (kInRegion) is_cut |= !is_in_region(record);
+    const double gauge = gauge_above<D>(record, apex);
     const bool is_visible = gauge > threshold;
     visible[count] = row;
     gauges[count] = gauge;
@@ -88,6 +92,7 @@ HWY_INLINE void Grower<D>::test_first_met(const double* apex, double threshold, 
   result.visible_count = count;
   result.lowest = lowest;
   result.highest = highest;
+  result.is_cut |= is_cut;
 }
 
 /// Appends the ridges of visible simplices begin .. end whose other side is hidden.
@@ -111,8 +116,10 @@ HWY_INLINE void Grower<D>::collect_horizon(const std::uint8_t* marks, std::size_
 }
 
 /// Searches from the visible simplices begin .. end, or, when what is found is appended to the list itself,
-/// until there are no more or so many that threads may share them. Returns where it ended.
+/// until there are no more or so many that threads may share them. In a region it ends at the border. Returns
+/// where it ended.
 template <std::size_t D>
+template <bool kInRegion>
 std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t* marks, std::size_t begin,
                               std::size_t end, SearchResult& result) {
   FirstMet<D> lists[2];
@@ -122,11 +129,11 @@ std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t
   for (;;) {
     std::size_t limit = end;
     if (is_open) limit = result.visible_count - listed < most ? result.visible_count : listed;
-    if (tested == limit) return tested;
+    if (tested == limit || (kInRegion && result.is_cut)) return tested;
     const std::size_t list_end = std::min(listed + FirstMet<D>::kBatch, limit);
     list_first_met(marks, listed, list_end, lists[turn]);
     turn ^= 1;
-    test_first_met(apex, threshold, marks, lists[turn], result);
+    test_first_met<kInRegion>(apex, threshold, marks, lists[turn], result);
     lists[turn].count = 0;
     collect_horizon(marks, tested, listed, result);
     tested = listed;
@@ -135,6 +142,7 @@ std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t
 }
 
 template <std::size_t D>
+template <bool kInRegion>
 void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double threshold) {
   alignas(64) double apex[D];
   for (std::size_t k = 0; k < D; ++k) apex[k] = apex_in[k];
@@ -148,6 +156,7 @@ void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double t
   lowest_visible_ = gauge;
   highest_hidden_ = -HUGE_VAL;
   shared_visible_ = shared_horizon_ = 0;
+  is_cut_ = false;
   for (std::size_t begin = 0; begin < visible_count_;) {
     if (!shares_.empty() && visible_count_ - begin >= kManyVisible) {
       const std::size_t end = visible_count_;
@@ -155,29 +164,32 @@ void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double t
       begin = end;
     } else {
       SearchResult result{visible_.data(), visible_gauge_.data(), horizon_.data(), visible_count_,
-                          horizon_count_,  lowest_visible_,       highest_hidden_};
-      begin = search(apex, threshold, marks_.data(), begin, 0, result);
+                          horizon_count_,  lowest_visible_,       highest_hidden_, false};
+      begin = search<kInRegion>(apex, threshold, marks_.data(), begin, 0, result);
       visible_count_ = result.visible_count;
       horizon_count_ = result.horizon_count;
       lowest_visible_ = result.lowest;
       highest_hidden_ = result.highest;
+      is_cut_ = result.is_cut;
+      if (is_cut_) return;
     }
   }
 }
 
 /// Makes marks of earlier searches old. When marks run out all are cleared; after a small search in a large
-/// complex its own marks are, so that this costs little beside the searches.
+/// complex its own marks are, so that this costs little beside the searches. One that was cut has not listed
+/// all that it marked.
 template <std::size_t D>
 void Grower<D>::next_marks() {
   constexpr unsigned kLastMark = 250, kMarksOfSearch = 3;
   const std::size_t marked = visible_count_ + horizon_count_;
-  if (shared_visible_ == 0 && marked < work_.complex.row_count / 512) {
+  if (shared_visible_ == 0 && !is_cut_ && marked < books_.row_count / 512) {
     for (std::size_t i = 0; i < visible_count_; ++i) marks_[visible_[i]] = 0;
     for (std::size_t i = 0; i < horizon_count_; ++i) marks_[horizon_[i].hidden] = 0;
   } else if (hidden_mark_ + 2 * kMarksOfSearch > kLastMark) {
-    std::fill_n(marks_.data(), work_.complex.row_count, std::uint8_t{0});
+    std::fill_n(marks_.data(), books_.row_count, std::uint8_t{0});
     for (std::size_t s = 1; s < shares_.size(); ++s)
-      std::fill_n(shares_[s].marks.data(), work_.complex.row_count, std::uint8_t{0});
+      std::fill_n(shares_[s].marks.data(), books_.row_count, std::uint8_t{0});
     hidden_mark_ = 1;
   } else {
     hidden_mark_ = static_cast<std::uint8_t>(hidden_mark_ + kMarksOfSearch);

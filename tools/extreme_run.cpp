@@ -186,7 +186,7 @@ int run_extreme(const ExtremeRequest& asked) {
   tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
                                                      : static_cast<int>(request.options.threads));
   progress.show_phase("read");
-  const PointFile points = read_points(request.points_path, request.columns);
+  const PointFile points = arena.execute([&] { return read_points(request.points_path, request.columns); });
   check_outputs_are_writable(outputs, {request.points_path});
   request.options.threads = static_cast<unsigned>(arena.max_concurrency());
   request.options.stop = interrupt.token();

@@ -182,9 +182,13 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
                                                      : static_cast<int>(request.options.threads));
 
   progress.show_phase("read");
-  HullInput input(request.points_path, request.columns, kept_file_bytes(request.options.limits),
-                  request.shards_pattern, group,
-                  [&] { check_outputs_are_writable(outputs, inputs_of(request)); });
+  std::optional<HullInput> read;
+  arena.execute([&] {
+    read.emplace(request.points_path, request.columns, kept_file_bytes(request.options.limits),
+                 request.shards_pattern, group,
+                 [&] { check_outputs_are_writable(outputs, inputs_of(request)); });
+  });
+  HullInput& input = *read;
   ReportContext context{.input_path = request.shards_pattern + request.points_path,
                         .options = request.options,
                         .program_options = program_options(request),

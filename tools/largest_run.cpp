@@ -102,14 +102,14 @@ int run_largest(const LargestRequest& request) {
   ProgressLine progress(request.progress, request.quiet);
 
   progress.show_phase("read");
-  const PointFile points = read_points(request.points_path, request.columns);
+  tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
+                                                     : static_cast<int>(request.options.threads));
+  const PointFile points = arena.execute([&] { return read_points(request.points_path, request.columns); });
   check_outputs_are_writable(outputs, {request.points_path});
   LargestReportContext context{.input_path = request.points_path,
                                .options = request.options,
                                .program_options = program_options(request),
                                .facet_list = request.facet_list};
-  const tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
-                                                           : static_cast<int>(request.options.threads));
   context.options.threads = static_cast<unsigned>(arena.max_concurrency());
   context.options.stop = interrupt.token();
   context.options.machine_memory_bytes = memory_of_machine();

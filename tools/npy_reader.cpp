@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <cstring>
 #include <utility>
+#include <vector>
 
+#include "core/blocks.h"
 #include "core/error.h"
 #include "tools/npy_header.h"
 
@@ -43,6 +45,20 @@ std::size_t find_non_finite(const char* data, std::size_t count) {
       if (carry(k) >> kSignBit != 0) return k;
     }
   }
+  return count;
+}
+
+/// The same, by all threads. `size`: bytes of an element, 4 or 8.
+std::size_t find_non_finite(const char* data, std::size_t count, std::size_t size) {
+  constexpr std::size_t kPart = std::size_t{1} << 17;
+  std::vector<std::size_t> places((count + kPart - 1) / kPart);
+  for_each_block(count, kPart, [&](std::size_t begin, std::size_t end) {
+    const char* const from = data + begin * size;
+    places[begin / kPart] = begin + (size == 4 ? find_non_finite<std::uint32_t, 23>(from, end - begin)
+                                               : find_non_finite<std::uint64_t, 52>(from, end - begin));
+  });
+  for (std::size_t part = 0; part < places.size(); ++part)
+    if (places[part] != std::min(count, (part + 1) * kPart)) return places[part];
   return count;
 }
 
@@ -207,8 +223,7 @@ PointFile read_npy(FileBytes bytes, const std::string& name, std::size_t kept_by
   std::size_t bad = 0;
   for (std::size_t chunk = 0; chunk < count && bad == chunk; chunk += kChunk) {
     const std::size_t used = std::min(kChunk, count - chunk), size = is_float ? 4 : 8;
-    bad = chunk + (is_float ? find_non_finite<std::uint32_t, 23>(data + chunk * size, used)
-                            : find_non_finite<std::uint64_t, 52>(data + chunk * size, used));
+    bad = chunk + find_non_finite(data + chunk * size, used, size);
     if (gives_back) bytes.give_back(header.data_offset + (chunk + used) * size);
   }
   if (bad != count) {

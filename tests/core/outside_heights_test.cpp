@@ -50,9 +50,22 @@ TEST_P(OutsideHeightsOfSizes, NamesTheFurthestOfAllAndTheLowestRowOfTies) {
         ASSERT_EQ(heights.height(point), place.height);
       }
     }
+    for (unsigned change = 0; change < below(20); ++change) {
+      const std::uint32_t point = below(count);
+      const Place place{below(1000), 0.25 * below(7)};
+      heights.put_apart(point, place.row, place.height);
+      heights.settle(point);
+      places[point] = place;
+    }
     const OutsideHeights::Furthest found = heights.furthest(), expected = furthest_of(places);
     ASSERT_EQ(found.height, expected.height) << "round " << round;
     ASSERT_EQ(found.row, expected.row) << "round " << round;
+    const double low = 0.25 * below(7);
+    std::vector<std::uint32_t> above, expected_above;
+    heights.list_above(low, above);
+    for (const auto& [point, place] : places)
+      if (place.height > low) expected_above.push_back(point);
+    ASSERT_EQ(above, expected_above) << "round " << round;
   }
 }
 

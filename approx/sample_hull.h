@@ -1,0 +1,20 @@
+// Is it worth growing a hull to drop points that are inside it?
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/points.h"
+
+namespace ndhull {
+
+/// A point this far inside a hull may be dropped. [ratio] As CertifiedGrowth has it.
+inline constexpr double kDroppedInside = 1e-9;
+
+/// Is a point of a small sample inside a small hull of it? If none is, as on spheres, a larger hull holds
+/// hardly any either.
+///
+/// Shapes  sample: rows x d, finite, d in 2 .. 16. True when it spans less than d dimensions.
+bool holds_some_of(const PointView& sample, std::uint64_t seed);
+
+}  // namespace ndhull

@@ -1,0 +1,117 @@
+// Growth in regions beside growth that adds one point after the other.
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <vector>
+
+#include "core/complex_check.h"
+#include "core/frame.h"
+#include "core/growth.h"
+#include "tools/rbox.h"
+
+namespace ndhull {
+namespace {
+
+using Simplices = std::set<std::vector<std::uint32_t>>;
+
+struct Grown {
+  explicit Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0) {
+    const Frame frame = fit_frame(set.view());
+    coordinates.resize(set.coordinates.size() + 8);
+    map_points(set.view(), frame, coordinates.data());
+    work.rank = frame.rank;
+    work.point_count = set.rows();
+    work.points = coordinates.data();
+    work.options.in_regions = in_regions;
+    work.options.pause_rows = pause_rows;
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      start_growth(work, frame.simplex, FirstPoints());
+      while (grow(work) == GrowthStop::kPaused) {
+        EXPECT_TRUE(check_complex(work.complex).sound());
+        work.options.pause_rows += work.options.pause_rows / 2;
+      }
+    });
+  }
+  std::size_t live_rows() const { return work.complex.row_count - work.free_count; }
+  Simplices simplices() const {
+    Simplices found;
+    for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {
+      if (work.complex.state[row] != SimplexState::kLive) continue;
+      std::vector<std::uint32_t> ids;
+      for (const PointId id : work.complex.vertices(SimplexId{row})) ids.push_back(id.value);
+      std::sort(ids.begin(), ids.end());
+      found.insert(ids);
+    }
+    return found;
+  }
+
+  std::vector<double> coordinates;
+  GrowthWork work;
+};
+
+struct Case {
+  const char* words;  // of rbox
+  std::size_t insertions;
+};
+
+class GrowthInRegions : public testing::TestWithParam<Case> {};
+
+// Of points in general position there is one hull.
+TEST_P(GrowthInRegions, MakesTheSimplicesOfGrowthByOne) {
+  const PointSet set = rbox(GetParam().words);
+  const Grown alone(set, false, 1), parted(set, true, 2);
+  EXPECT_EQ(alone.work.counters.in_regions, 0u);
+  EXPECT_GE(parted.work.counters.in_regions, GetParam().insertions);
+  EXPECT_EQ(parted.work.points_outside, 0u);
+  const ComplexCheck check = check_complex(parted.work.complex);
+  EXPECT_TRUE(check.sound()) << check.first_problem;
+  EXPECT_EQ(check.simplices, parted.live_rows());
+  EXPECT_EQ(parted.simplices(), alone.simplices());
+  // Points that are added too early make simplices that do not stay.
+  EXPECT_LE(parted.work.counters.created, alone.work.counters.created / 20 * 21);
+}
+
+TEST_P(GrowthInRegions, HasTheSameBytesForAnyNumberOfThreads) {
+  const PointSet set = rbox(GetParam().words);
+  const Grown one(set, true, 1);
+  const std::size_t rows = one.work.complex.row_count, rank = one.work.rank;
+  for (const int threads : {2, 3}) {
+    const Grown more(set, true, threads);
+    const SimplicialComplex &a = one.work.complex, &b = more.work.complex;
+    ASSERT_EQ(b.row_count, rows);
+    EXPECT_EQ(more.work.counters.created, one.work.counters.created);
+    EXPECT_EQ(std::memcmp(a.planes.data(), b.planes.data(), rows * rank * sizeof(double)), 0);
+    EXPECT_EQ(std::memcmp(a.topology.data(), b.topology.data(), rows * 2 * rank * sizeof(std::uint32_t)), 0);
+    EXPECT_EQ(std::memcmp(a.state.data(), b.state.data(), rows), 0);
+    EXPECT_TRUE(std::equal(one.work.free_rows.data(), one.work.free_rows.data() + one.work.free_count,
+                           more.work.free_rows.data()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, GrowthInRegions,
+                         testing::Values(Case{"20000 s D3 t1", 6000}, Case{"6000 s D4 t2", 2000},
+                                         Case{"4000 s D5 t3", 2000}, Case{"20000 D4 t1", 0},
+                                         Case{"2500 s D6 t4", 600}));
+
+TEST(GrowthInRegionsOfOtherData, IsAHullWhereItPauses) {
+  const Grown parted(rbox("4000 s D5 t5"), true, 2, 9000);
+  EXPECT_TRUE(check_complex(parted.work.complex).sound());
+  EXPECT_EQ(parted.simplices(), Grown(rbox("4000 s D5 t5"), false, 1).simplices());
+}
+
+// Most points on an edge of the hull have gauges near 0: those are added one after the other.
+TEST(GrowthInRegionsOfOtherData, LeavesWhatIsNotGeneralToGrowthByOne) {
+  PointSet set = rbox("5000 s D4 t6");
+  for (double& x : set.coordinates) x = std::round(x * 64.0) / 64.0;
+  const Grown parted(set, true, 2);
+  EXPECT_GT(parted.work.shifted_points.size(), 0u);
+  const ComplexCheck check = check_complex(parted.work.complex);
+  EXPECT_TRUE(check.sound()) << check.first_problem;
+}
+
+}  // namespace
+}  // namespace ndhull
