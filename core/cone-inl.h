@@ -162,7 +162,8 @@ void Grower<D>::find_hidden_slots(std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     if (i + kAhead < new_count_) __builtin_prefetch(neighbours(horizon_[i + kAhead].hidden), 1);
     HorizonRidge& ridge = horizon_[i];
-    const std::uint32_t slot = slot_of<D>(neighbours(ridge.hidden), visible_[ridge.visible_index]);
+    const std::uint32_t slot =
+        slot_of<D, RowHalf::kNeighbours>(vertices(ridge.hidden), visible_[ridge.visible_index]);
     ridge.hidden_slot = static_cast<std::uint16_t>(slot);
   }
 }

@@ -93,7 +93,9 @@ struct SearchShare {
   HugeArray<double> gauge;
   HugeArray<HorizonRidge> horizon;
   SearchResult result;
-  std::size_t kept = 0;  // of the visible ones: not found by a lower share
+  std::size_t kept = 0;                   // of the visible ones: not found by a lower share
+  HugeArray<std::uint32_t> kept_visible;  // these, where their place is not known at once
+  HugeArray<double> kept_gauge;
 };
 
 template <std::size_t D>
@@ -145,7 +147,7 @@ class Grower {
 
   // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
   // result.
-  static constexpr std::size_t kManyVisible = 192, kManyRidges = 384, kRidgesInBlock = 96;
+  static constexpr std::size_t kManyVisible = 128, kManyRidges = 384, kRidgesInBlock = 96;
   // More would spend their time on marking what the others found.
   static constexpr std::size_t kMostThreads = 8;
 
@@ -162,6 +164,7 @@ class Grower {
   std::uint8_t* share_marks(std::size_t s) { return s == 0 ? marks_.data() : shares_[s].marks.data(); }
   void make_shares();
   void mark_found_alone(std::uint8_t* marks);
+  void merge_share(std::size_t s);
   void search_wave(const double* apex, double threshold, std::size_t begin, std::size_t end);
   template <bool kInRegion>
   std::size_t search(const double* apex, double threshold, std::uint8_t* marks, std::size_t begin,

@@ -39,12 +39,14 @@ HWY_INLINE std::uint32_t slots_to_turn(const std::uint32_t* row, std::uint32_t k
   std::uint32_t inverted = 0;  // as many bits as there are pairs in the wrong order, or two less, or four ...
   for (std::uint32_t slot = 0; slot < D; ++slot) {
     const auto id = hn::Set(tag, row[slot]);
-    const std::uint32_t above = slots_where<D>(row, [&](auto ids) HWY_ATTR { return hn::Gt(ids, id); });
+    const std::uint32_t above =
+        slots_where<D, RowHalf::kVertices>(row, [&](auto ids) HWY_ATTR { return hn::Gt(ids, id); });
     rank_is_odd ^= above;
     inverted ^= above & ((1u << slot) - 1);
   }
   const auto last = hn::Set(tag, row[k]);
-  const std::uint32_t above = slots_where<D>(row, [&](auto ids) HWY_ATTR { return hn::Gt(ids, last); });
+  const std::uint32_t above =
+      slots_where<D, RowHalf::kVertices>(row, [&](auto ids) HWY_ATTR { return hn::Gt(ids, last); });
   const std::uint32_t all = static_cast<std::uint32_t>(__builtin_popcount(inverted)) + (rank_is_odd >> k);
   return (rank_is_odd ^ above ^ (0u - (all & 1u))) & kAllSlots<D> & ~(1u << k);
 }
@@ -63,7 +65,9 @@ struct Turns {
   std::uint32_t back[kCapacity];     // slot of the neighbour in its row
 };
 
-alignas(64) constexpr std::uint32_t kSlots[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+constexpr std::size_t kBeforeSlots = 4;  // lanes before the first slot
+constexpr std::uint32_t kSlots[kBeforeSlots + 16] = {0, 0, 0, 0, 0,  1,  2,  3,  4,  5,
+                                                     6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Lists the turns of ridge `index` that take a step; origins count from ridge `base`. Returns how many turns
 /// there are now.
@@ -77,17 +81,19 @@ HWY_INLINE std::size_t Grower<D>::begin_turns(std::size_t base, std::size_t inde
   const std::uint32_t* ids = vertices(visible);
   const std::uint32_t* around = neighbours(visible);
   const auto new_bit = hn::Set(tag, kNewBit);
-  const std::uint32_t is_old = slots_where<D>(
-      around, [&](auto next) HWY_ATTR { return hn::Eq(hn::And(next, new_bit), hn::Zero(RowTag<D>())); });
+  const std::uint32_t is_old = slots_where<D, RowHalf::kNeighbours>(
+      ids, [&](auto next) HWY_ATTR { return hn::Eq(hn::And(next, new_bit), hn::Zero(RowTag<D>())); });
   const std::uint32_t going_on = slots_to_turn<D>(ids, ridge.slot) & is_old;
   const auto pivot = hn::Set(tag, ids[ridge.slot]), from = hn::Set(tag, visible);
   const auto origin = hn::Set(tag, static_cast<std::uint32_t>((index - base) * 16));
+  const std::size_t before = lanes_before<D, RowHalf::kNeighbours>();
   for (std::size_t begin = 0; begin < D; begin += lanes) {
-    const std::uint32_t bits = going_on >> begin & ((1u << lanes) - 1);
+    const std::size_t start = D > lanes && begin + lanes > D ? D - lanes : begin;  // nothing behind the row
+    const std::uint32_t bits = going_on >> begin << (begin + before) >> start & ((1u << lanes) - 1);
     const ChosenLanes chosen(tag, bits);
-    const auto here = hn::Or(origin, hn::LoadU(tag, kSlots + begin));
+    const auto here = hn::Or(origin, hn::LoadU(tag, kSlots + kBeforeSlots + start - before));
     hn::StoreU(chosen.to_front(here), tag, turns.origin + count);
-    hn::StoreU(chosen.to_front(hn::LoadU(tag, around + begin)), tag, turns.to + count);
+    hn::StoreU(chosen.to_front(hn::LoadU(tag, around + start - before)), tag, turns.to + count);
     hn::StoreU(from, tag, turns.from + count);
     hn::StoreU(pivot, tag, turns.pivot + count);
     count += static_cast<std::size_t>(__builtin_popcount(bits));
@@ -105,8 +111,8 @@ HWY_INLINE std::size_t Grower<D>::step_turns(const std::uint32_t* HWY_RESTRICT r
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t origin = turns.origin[i], at = turns.to[i];
     const std::uint32_t* ids = topology + std::size_t{at} * 2 * D;
-    const std::uint32_t leave = slot_of<D>(ids, turns.pivot[i]);
-    const std::uint32_t back = slot_of<D>(ids + D, turns.from[i]);
+    const std::uint32_t leave = slot_of<D, RowHalf::kVertices>(ids, turns.pivot[i]);
+    const std::uint32_t back = slot_of<D, RowHalf::kNeighbours>(ids, turns.from[i]);
     const std::uint32_t next = ids[D + leave], partner = next & ~kNewBit;
     const std::size_t ends = next >> 31;
     turns.ended[ended] = origin;

@@ -30,6 +30,9 @@ void Grower<D>::make_shares() {
     share.visible = HugeArray<std::uint32_t>(capacity);
     share.gauge = HugeArray<double>(capacity);
     share.horizon = HugeArray<HorizonRidge>(capacity * D);
+    if (s < 2) continue;
+    share.kept_visible = HugeArray<std::uint32_t>(capacity);
+    share.kept_gauge = HugeArray<double>(capacity);
   }
 }
 
@@ -38,6 +41,45 @@ template <std::size_t D>
 void Grower<D>::mark_found_alone(std::uint8_t* marks) {
   for (std::size_t i = shared_visible_; i < visible_count_; ++i) marks[visible_[i]] = visible_mark();
   for (std::size_t i = shared_horizon_; i < horizon_count_; ++i) marks[horizon_[i].hidden] = hidden_mark_;
+}
+
+/// Keeps what no lower share has found as well, and marks what the others have found.
+template <std::size_t D>
+void Grower<D>::merge_share(std::size_t s) {
+  std::uint8_t* const marks = share_marks(s);
+  for (std::size_t lower = 0; lower < s; ++lower) {  // what two lower ones found is marked as well
+    const SearchResult& found = shares_[lower].result;
+    for (std::size_t i = 0; i < found.visible_count; ++i) {
+      std::uint8_t& mark = marks[found.visible[i]];
+      mark = mark >= visible_mark() ? duplicate_mark() : visible_mark();
+    }
+  }
+  SearchShare& share = shares_[s];
+  const SearchResult& own = share.result;
+  const std::size_t of_first = shares_[0].result.visible_count;  // it keeps all
+  const std::size_t at = visible_count_ + s * of_first;
+  std::uint32_t* const visible = s < 2 ? visible_.data() + at : share.kept_visible.data();
+  double* const gauge = s < 2 ? visible_gauge_.data() + at : share.kept_gauge.data();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < own.visible_count; ++i) {
+    const std::uint32_t row = own.visible[i];
+    visible[kept] = row;
+    gauge[kept] = own.gauge[i];
+    kept += marks[row] == visible_mark() ? 1u : 0u;
+  }
+  share.kept = kept;
+  // The first share has had no duplicates to look for: it copies the second one's ridges too.
+  std::size_t horizon_at = horizon_count_;
+  for (std::size_t other = 0; other < shares_.size(); ++other) {
+    const SearchResult& found = shares_[other].result;
+    if (other == 1 ? s == 0 : other == s)
+      std::copy_n(found.horizon, found.horizon_count, horizon_.data() + horizon_at);
+    horizon_at += found.horizon_count;
+    if (other == s) continue;
+    for (std::size_t i = 0; i < found.horizon_count; ++i) marks[found.horizon[i].hidden] = hidden_mark_;
+    if (other < s) continue;
+    for (std::size_t i = 0; i < found.visible_count; ++i) marks[found.visible[i]] = visible_mark();
+  }
 }
 
 /// Searches from the visible simplices begin .. end.
@@ -55,45 +97,17 @@ void Grower<D>::search_wave(const double* apex, double threshold, std::size_t be
     search<false>(apex, threshold, share_marks(s), begin + (end - begin) * s / parts,
                   begin + (end - begin) * (s + 1) / parts, share.result);
   });
-  // What a lower share found as well is marked as a duplicate of it (and what two lower ones found).
-  for_shares([&](std::size_t s) {
-    std::uint8_t* const marks = share_marks(s);
-    for (std::size_t lower = 0; lower < s; ++lower) {
-      const SearchResult& found = shares_[lower].result;
-      for (std::size_t i = 0; i < found.visible_count; ++i) {
-        std::uint8_t& mark = marks[found.visible[i]];
-        mark = mark >= visible_mark() ? duplicate_mark() : visible_mark();
-      }
-    }
-    const SearchResult& own = shares_[s].result;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < own.visible_count; ++i)
-      kept += marks[own.visible[i]] == visible_mark() ? 1u : 0u;
-    shares_[s].kept = kept;
-  });
-  for_shares([&](std::size_t s) {
-    const SearchResult& own = shares_[s].result;
-    std::uint8_t* const marks = share_marks(s);
-    std::size_t visible_at = visible_count_, horizon_at = horizon_count_;
-    for (std::size_t lower = 0; lower < s; ++lower) {
-      visible_at += shares_[lower].kept;
-      horizon_at += shares_[lower].result.horizon_count;
-    }
-    std::copy_n(own.horizon, own.horizon_count, horizon_.data() + horizon_at);
-    const std::size_t visible_end = visible_at + shares_[s].kept;
-    for (std::size_t i = 0; visible_at < visible_end; ++i) {
-      visible_[visible_at] = own.visible[i];
-      visible_gauge_[visible_at] = own.gauge[i];
-      visible_at += marks[own.visible[i]] == visible_mark() ? 1u : 0u;
-    }
-    for (std::size_t other = 0; other < parts; ++other) {
-      if (other == s) continue;
-      const SearchResult& found = shares_[other].result;
-      for (std::size_t i = 0; i < found.horizon_count; ++i) marks[found.horizon[i].hidden] = hidden_mark_;
-      if (other < s) continue;
-      for (std::size_t i = 0; i < found.visible_count; ++i) marks[found.visible[i]] = visible_mark();
-    }
-  });
+  for_shares([&](std::size_t s) { merge_share(s); });
+  // Where the finds of the first two shares go is known before; the others wait for what the lower ones keep.
+  if (parts > 2) {
+    for_shares([&](std::size_t s) {
+      std::size_t at = visible_count_;
+      for (std::size_t lower = 0; lower < s; ++lower) at += shares_[lower].kept;
+      if (s < 2) return;
+      std::copy_n(shares_[s].kept_visible.data(), shares_[s].kept, visible_.data() + at);
+      std::copy_n(shares_[s].kept_gauge.data(), shares_[s].kept, visible_gauge_.data() + at);
+    });
+  }
   for (const SearchShare& share : shares_) {
     visible_count_ += share.kept;
     horizon_count_ += share.result.horizon_count;
