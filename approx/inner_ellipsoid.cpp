@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/blocks.h"
@@ -104,6 +105,25 @@ std::uint64_t InnerEllipsoid::contains(const double* points, std::size_t count) 
   for (std::size_t i = 0; i < count; ++i)
     inside |= static_cast<std::uint64_t>(length_sq[i] < radius_sq_ ? 1 : 0) << i;
   return inside;
+}
+
+void InnerEllipsoid::drop_inside(const PointView& points, std::size_t begin, std::size_t end,
+                                 RowBits& rows) const {
+  if (radius_sq_ == 0.0) return;
+  std::vector<double> copies(kPoints * dimension_);
+  std::array<std::size_t, kPoints> ids;
+  std::size_t count = 0;
+  const auto look = [&] {
+    for (std::uint64_t inside = contains(copies.data(), count); inside != 0; inside &= inside - 1)
+      rows.drop(ids[static_cast<std::size_t>(std::countr_zero(inside))]);
+    count = 0;
+  };
+  rows.for_each(begin, end, [&](std::size_t row) {
+    points.copy_row(row, copies.data() + count * dimension_);
+    ids[count++] = row;
+    if (count == kPoints) look();
+  });
+  look();
 }
 
 }  // namespace ndhull

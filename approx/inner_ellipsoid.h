@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "approx/row_bits.h"
 #include "core/frame.h"
+#include "core/points.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -36,6 +38,10 @@ class InnerEllipsoid {
   /// Which of these points of the input are well inside the hull? A bit each; 0 when that is not proven.
   /// Shapes  points: count x dimension, at most kPoints of them.
   std::uint64_t contains(const double* points, std::size_t count) const;
+
+  /// Drops of the rows from `begin` to before `end` (as RowBits has them) those inside. What is inside by
+  /// this is inside every later hull of the growth by far more than rounding.
+  void drop_inside(const PointView& points, std::size_t begin, std::size_t end, RowBits& rows) const;
 
  private:
   double radius_below(std::span<const double> plane) const;

@@ -1,11 +1,12 @@
 #include "approx/point_reduction.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
 #include "approx/direction_extremes.h"
+#include "approx/furthest_outside.h"
 #include "approx/inner_ellipsoid.h"
 #include "approx/row_bits.h"
 #include "approx/sample_hull.h"
@@ -33,30 +34,6 @@ constexpr std::size_t kMostRows = 250'000, kPointsForARow = 16;
 constexpr std::size_t kMoreRows = 2;
 /// As few points left are no burden.
 constexpr std::size_t kFewPoints = 20'000;
-/// Points outside that a pass names for the next hull.
-constexpr std::size_t kNamed = 4096;
-
-/// A point that is outside the hull, by at most this gauge, over this simplex.
-struct OutsidePoint {
-  double gauge;
-  std::uint32_t id;
-  SimplexId simplex;
-  bool operator<(const OutsidePoint& other) const {  // the furthest first
-    return gauge != other.gauge ? gauge > other.gauge : id < other.id;
-  }
-};
-
-/// The furthest point over each simplex, at most kNamed of them, the furthest first. What is not among the
-/// first so many of a part of the points is not among those of all: the result of parts is that of the whole.
-void keep_furthest(std::vector<OutsidePoint>& points) {
-  std::sort(points.begin(), points.end(), [](const OutsidePoint& a, const OutsidePoint& b) {
-    return a.simplex != b.simplex ? a.simplex < b.simplex : a < b;
-  });
-  const auto is_same = [](const OutsidePoint& a, const OutsidePoint& b) { return a.simplex == b.simplex; };
-  points.erase(std::unique(points.begin(), points.end(), is_same), points.end());
-  std::sort(points.begin(), points.end());
-  if (points.size() > kNamed) points.resize(kNamed);
-}
 
 class Reduction {
  public:
@@ -72,8 +49,8 @@ class Reduction {
     std::size_t left = shards_.rows, rows = most_rows / kMoreRows;
     for (int pass = 0; pass < kPasses; ++pass) {
       work_.options.pause_rows = rows;
-      grow(work_);
-      if (pass == 0 && !drops_many()) break;
+      pass == 0 ? grow_first(rows) : static_cast<void>(grow(work_));
+      if (pass == 0 && !drops_many()) return rows_of(shards_);
       const std::size_t before = left;
       left = drop_inside();
       const bool pays = left > kFewPoints && (pass == 0 || left < before - before / 8);
@@ -85,6 +62,37 @@ class Reduction {
   }
 
  private:
+  /// The first hull. While one thread grows it another one drops what is inside a part of it, as far as it
+  /// comes: that is inside the whole as well. Where a file need not stay in memory it is read no more than it
+  /// has to be.
+  void grow_first(std::size_t rows) {
+    constexpr std::size_t kPart = 8;
+    work_.options.pause_rows = rows / kPart;
+    grow(work_);
+    work_.options.pause_rows = rows;
+    const bool is_read_again =
+        std::any_of(shards_.parts.begin(), shards_.parts.end(),
+                    [](const PointShard& part) { return part.points.is_file_mapping; });
+    if (!has_more_threads() || is_read_again) {
+      grow(work_);
+      return;
+    }
+    InnerEllipsoid early = ellipsoid_;
+    early.fit(work_.complex);
+    std::atomic<bool> is_grown = false;
+    for_each_block(2, 1, [&](std::size_t task, std::size_t) {
+      if (task == 0) {
+        run_alone([&](std::size_t, std::size_t) { grow(work_); });
+        is_grown = true;
+        return;
+      }
+      for (std::size_t i = 0; i < blocks_.size() && !is_grown; ++i) {
+        const ShardBlock& block = blocks_[i];
+        early.drop_inside(shards_.parts[block.part].points, block.begin, block.end, candidates_[block.part]);
+      }
+    });
+  }
+
   std::vector<std::uint32_t> all_candidates() const {
     std::vector<std::uint32_t> ids;
     for (std::size_t part = 0; part < candidates_.size(); ++part) {
@@ -291,29 +299,12 @@ class Reduction {
       }
       ids.clear();
     };
-    // Behind those to be located: what comes next is looked at there, and moved up.
-    std::array<std::size_t, InnerEllipsoid::kPoints> next_ids;
-    std::size_t next = 0;
-    const auto look_at_next = [&] {
-      double* const first = rows.data() + ids.size() * dimension;
-      const std::uint64_t inside = ellipsoid_.contains(first, next);
-      for (std::size_t i = 0; i < next; ++i) {
-        if (inside >> i & 1) {
-          candidates.drop(next_ids[i]);
-          continue;
-        }
-        std::copy_n(first + i * dimension, dimension, rows.data() + ids.size() * dimension);
-        ids.push_back(next_ids[i]);
-      }
-      next = 0;
-      if (ids.size() + next_ids.size() > kLocatedAtATime) locate();
-    };
+    ellipsoid_.drop_inside(part.points, block.begin, block.end, candidates);
     candidates.for_each(block.begin, block.end, [&](std::size_t row) {
-      part.points.copy_row(row, rows.data() + (ids.size() + next) * dimension);
-      next_ids[next++] = row;
-      if (next == next_ids.size()) look_at_next();
+      part.points.copy_row(row, rows.data() + ids.size() * dimension);
+      ids.push_back(row);
+      if (ids.size() == kLocatedAtATime) locate();
     });
-    look_at_next();
     if (!ids.empty()) locate();
     keep_furthest(named);
     return left;
