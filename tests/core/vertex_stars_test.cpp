@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 #include <vector>
 
@@ -73,9 +74,10 @@ TEST(VertexStars, AreGivenUpWhenAsked) {
   const Sphere sphere("200 s D5");
   EXPECT_TRUE(sphere.stars({.most_rows = sphere.simplices.size()}));
   EXPECT_FALSE(sphere.stars({.most_rows = sphere.simplices.size() - 1}));
-  std::size_t most = 0;
+  std::atomic<std::size_t> most = 0;  // any thread asks
   EXPECT_FALSE(sphere.stars({.gives_up = [&](std::size_t stars, std::uint64_t simplices) {
-    most = std::max(most, stars);
+    for (std::size_t before = most; stars > before && !most.compare_exchange_weak(before, stars);) {
+    }
     return simplices > sphere.simplices.size() / 2;
   }}));
   EXPECT_GT(most, 0U);
