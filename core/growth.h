@@ -97,9 +97,9 @@ struct FirstPoints {
 /// has grown.
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first);
 
-/// Adds outside points, the furthest of all first, until none are left or a limit is hit. May be called again
-/// after `push_outside`. Points in outside sets that are no higher than the least height are left out then:
-/// no set has any.
+/// Adds outside points, the furthest of all first (but see in_regions), until none are left or a limit is
+/// hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
+/// height are left out then: no set has any.
 GrowthStop grow(GrowthWork& work);
 
 /// How far a point with this gauge is above simplex `row`: its distance in length units, or the gauge itself
