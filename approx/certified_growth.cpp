@@ -98,6 +98,12 @@ void CertifiedGrowth::start() {
   work_.options.shift = options_.shift;
   work_.options.max_rows = options_.limits.max_facets;
   work_.options.poll = [this](std::uint64_t left, double furthest) { return poll(left, furthest); };
+  if (grown_) {
+    start_growth(work_, std::move(*grown_));
+    grown_.reset();
+    place_waiting();
+    return;
+  }
   const Clock::time_point begin = Clock::now();
   ball_ = find_ball(frame_.rank, coordinates_.data(), points_.rows, frame_.simplex);
   // A limit on facets ends growth at any time: then the furthest of all points has to come first.
@@ -109,6 +115,11 @@ void CertifiedGrowth::start() {
   start_growth(work_, frame_.simplex, first);
   detail("first partition", begin);
   if (!work_.waiting.empty()) grow_before_placing();
+}
+
+void CertifiedGrowth::go_on_from(BegunHull begun) {
+  ball_ = begun.ball;
+  grown_ = std::move(begun.grown);
 }
 
 /// Pauses at certain sizes where most points were shifted. Not for the first few simplices: small hulls are

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "approx/begun_hull.h"
 #include "approx/facet_table.h"
 #include "approx/hull.h"
 #include "approx/work_limits.h"
@@ -29,6 +31,9 @@ class CertifiedGrowth {
   /// gradient_factor: as GrowthOptions; empty for the exact hull. `hull` must outlive this.
   CertifiedGrowth(const PointView& points, const Frame& frame, std::vector<double> gradient_factor,
                   const HullOptions& options, Clock::time_point start, Hull& hull);
+
+  /// Before growth: it does not begin with a simplex. `begun` is of this frame, and of some of the points.
+  void go_on_from(BegunHull begun);
 
   /// Until no point is outside: every one is proven inside, or goes back and growth goes on, at most a few
   /// rounds.
@@ -135,6 +140,7 @@ class CertifiedGrowth {
   GrowthWork work_;
   HullBall ball_;
   WorkLimits limits_;
+  std::optional<GrownHull> grown_;  // until it has started
   bool has_started_ = false, grows_from_some_ = false;
   std::vector<bool> certificate_wanted_;
   KnownHighest known_highest_;

@@ -18,23 +18,22 @@
 namespace ndhull {
 namespace {
 
-/// Of a large set, the rows of this process that are not proven to be well inside. Nothing when it is not
-/// large, or too few would be dropped.
-std::optional<std::vector<std::uint32_t>> rows_worth_a_copy(const PointShards& shards,
-                                                            const HullOptions& options,
-                                                            Clock::time_point start) {
+/// Of a large set, what of this process is not proven to be well inside. Nothing when it is not large, or too
+/// few would be dropped.
+std::optional<PointsToKeep> points_worth_a_copy(const PointShards& shards, const HullOptions& options,
+                                                Clock::time_point start) {
   if (shards.rows < kPointsToReduce) return std::nullopt;
   const auto is_late = [&] {
     constexpr double kShare = 0.2;  // of the time, for looking at points that will turn out to be inside
     const double most = options.limits.max_seconds;
     return options.stop.stop_requested() || (most > 0.0 && seconds_since(start) > kShare * most);
   };
-  std::vector<std::uint32_t> ids = find_points_to_keep(shards, options.seed, is_late);
+  PointsToKeep points = find_points_to_keep(shards, options.seed, is_late);
   double kept = 0.0;
-  for (const double number : shards.all_gather({static_cast<double>(ids.size())})) kept += number;
+  for (const double number : shards.all_gather({static_cast<double>(points.rows.size())})) kept += number;
   constexpr double kWorthACopy = 0.7;
   if (kept > kWorthACopy * static_cast<double>(shards.rows)) return std::nullopt;
-  return ids;
+  return points;
 }
 
 double input_bytes(const PointShards& shards) {
@@ -42,14 +41,23 @@ double input_bytes(const PointShards& shards) {
   return static_cast<double>(shards.rows * shards.dimension * scalar);
 }
 
+/// With a width most of a hull's facets are fewer than what was grown already. A limit on facets ends growth
+/// at any time: then the furthest of all points has to come first.
+bool may_go_on(const HullOptions& options) {
+  const bool is_exact = options.accuracy.is_exact() || options.accuracy.is_for_volume();
+  return is_exact && options.limits.max_facets == 0 && options.shift <= HullOptions().shift;
+}
+
 /// The hull in terms of the rows of `reduced`.
 Hull hull_of_reduced(const ReducedPoints& reduced, const PointShards& shards, HullOptions options,
-                     Clock::time_point start) {
+                     Clock::time_point start, std::optional<BegunHull> begun) {
   const double seconds = seconds_since(start);
   for (std::uint64_t* most : {&options.limits.max_memory_bytes, &options.limits.machine_memory_bytes})
     if (*most > reduced.bytes()) *most -= reduced.bytes();
   const PointView view = reduced.view();
-  Hull hull = build_hull(view, options, start, input_bytes(shards));
+  const bool goes_on = begun && may_go_on(options) && begun->rename_points(reduced.ids());
+  if (!goes_on) begun.reset();  // its memory is wanted
+  Hull hull = build_hull(view, options, start, input_bytes(shards), goes_on ? &*begun : nullptr);
   hull.statistics.dropped_points = shards.rows - view.rows;
   if (shards.rows == view.rows) return hull;
   hull.statistics.seconds[static_cast<std::size_t>(Phase::kCertify)] += seconds;
@@ -60,10 +68,10 @@ Hull hull_of_reduced(const ReducedPoints& reduced, const PointShards& shards, Hu
 Hull hull_of(const PointView& points, const HullOptions& options) {
   const Clock::time_point start = Clock::now();
   const PointShards whole = PointShards::whole(points);
-  std::optional<std::vector<std::uint32_t>> ids = rows_worth_a_copy(whole, options, start);
-  if (!ids) return build_hull(points, options, start, input_bytes(whole));
-  const ReducedPoints reduced(whole, std::move(*ids));
-  Hull hull = hull_of_reduced(reduced, whole, options, start);
+  std::optional<PointsToKeep> kept = points_worth_a_copy(whole, options, start);
+  if (!kept) return build_hull(points, options, start, input_bytes(whole));
+  const ReducedPoints reduced(whole, std::move(kept->rows));
+  Hull hull = hull_of_reduced(reduced, whole, options, start, std::move(kept->begun));
   rename_points(hull, reduced.ids(), points.rows);
   return hull;
 }
@@ -82,10 +90,10 @@ Hull convex_hull(const PointView& points, const HullOptions& options) {
 std::optional<ShardedHull> convex_hull_of_shards(const PointShards& shards, const HullOptions& options) {
   return arena_of(options).execute([&]() -> std::optional<ShardedHull> {
     const Clock::time_point start = Clock::now();
-    std::optional<std::vector<std::uint32_t>> ids = rows_worth_a_copy(shards, options, start);
-    ReducedPoints points(shards, ids ? std::move(*ids) : rows_of(shards));
+    std::optional<PointsToKeep> kept = points_worth_a_copy(shards, options, start);
+    ReducedPoints points(shards, kept ? std::move(kept->rows) : rows_of(shards));
     if (shards.exchange != nullptr && !shards.exchange->is_first()) return std::nullopt;
-    Hull hull = hull_of_reduced(points, shards, options, start);
+    Hull hull = hull_of_reduced(points, shards, options, start, kept ? std::move(kept->begun) : std::nullopt);
     return ShardedHull{std::move(hull), std::move(points)};
   });
 }

@@ -23,9 +23,10 @@ class Tile {
     ids_.reserve(kExtremeTile);
   }
 
-  void add(const double* point, std::uint32_t id) {
+  /// Point i of those in the columns of z, rank x kWhitenedPoints.
+  void add(const double* z, std::size_t i, std::uint32_t id) {
     for (std::size_t k = 0; k < rank_; ++k)
-      columns_[k * kExtremeTile + ids_.size()] = static_cast<float>(point[k]);
+      columns_[k * kExtremeTile + ids_.size()] = static_cast<float>(z[k * kWhitenedPoints + i]);
     ids_.push_back(id);
     if (ids_.size() == kExtremeTile) finish();
   }
@@ -54,31 +55,25 @@ std::vector<float> random_directions(std::size_t count, std::size_t rank, std::u
 
 }  // namespace
 
-RowList find_direction_extremes(const PointShards& shards, const Frame& frame, double least_length,
+RowList find_direction_extremes(const PointShards& shards, const SampleShape& shape, double least_length,
                                 std::size_t count, std::uint64_t seed) {
-  const std::size_t dimension = shards.dimension, rank = frame.rank;
+  const std::size_t dimension = shards.dimension, rank = shape.rank();
+  const double least_sq = least_length * least_length;
   const std::vector<float> directions = random_directions(count, rank, seed);
   const std::vector<ShardBlock> blocks = blocks_of(shards);
   std::vector<std::vector<Extreme>> found(blocks.size());
   for_each_shard_block(shards, blocks, [&](std::size_t index, const ShardBlock& block) {
     const PointShard& part = shards.parts[block.part];
     Tile tile(directions, rank);
-    std::vector<double> shifted(dimension), point(rank);
-    for (std::size_t row = block.begin; row < block.end; ++row) {
-      for (std::size_t k = 0; k < dimension; ++k) shifted[k] = part.points.at(row, k) - frame.centre[k];
-      double length_sq = 0.0;
-      for (std::size_t r = 0; r < rank; ++r) {
-        double y = 0.0;
-        if (frame.is_diagonal) {
-          y = frame.map[r * dimension + r] * shifted[r];
-        } else {
-          for (std::size_t k = 0; k < dimension; ++k) y += frame.map[r * dimension + k] * shifted[k];
-        }
-        point[r] = y;
-        length_sq += y * y;
-      }
-      if (length_sq >= least_length * least_length)
-        tile.add(point.data(), static_cast<std::uint32_t>(part.first_row + row));
+    std::vector<double> z(rank * kWhitenedPoints), length_sq(kWhitenedPoints),
+        rows(dimension * kWhitenedPoints);
+    for (std::size_t first = block.begin; first < block.end; first += kWhitenedPoints) {
+      const std::size_t points = std::min(kWhitenedPoints, block.end - first);
+      for (std::size_t i = 0; i < points; ++i) part.points.copy_row(first + i, rows.data() + i * dimension);
+      shape.whiten(rows.data(), points, z.data(), length_sq.data());
+      for (std::size_t i = 0; i < points; ++i)
+        if (length_sq[i] >= least_sq)
+          tile.add(z.data(), i, static_cast<std::uint32_t>(part.first_row + first + i));
     }
     found[index] = tile.finish();
   });

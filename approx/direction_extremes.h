@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "approx/point_shards.h"
-#include "core/frame.h"
+#include "approx/sample_shape.h"
 
 namespace ndhull {
 
@@ -17,13 +17,14 @@ struct RowList {
   std::vector<double> rows;        ///< ids.size() x dimension, input units
 };
 
-/// Finds for each of `directions` random directions of the frame the point that is furthest along it, among
-/// those that are at least `least_length` from the frame's centre, in the frame.
+/// Finds for each of `directions` random directions the point that is furthest along it, among those that are
+/// at least `least_length` from the mean: all in the coordinates of the shape, so that the directions are
+/// spread as the points are.
 ///
 /// Returns   the same for any shards, processes and threads: the largest product in single precision, of
 ///           equal ones the first row.
 /// Cost      one pass; directions x dimension multiply-adds for each point that is so far out.
-RowList find_direction_extremes(const PointShards& shards, const Frame& frame, double least_length,
+RowList find_direction_extremes(const PointShards& shards, const SampleShape& shape, double least_length,
                                 std::size_t directions, std::uint64_t seed);
 
 }  // namespace ndhull

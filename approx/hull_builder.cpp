@@ -53,8 +53,8 @@ class HullBuilder {
     }
   }
 
-  Hull run() {
-    frame_ = fit_frame(points_);
+  Hull run(BegunHull* begun = nullptr) {
+    frame_ = begun != nullptr ? std::move(begun->frame) : fit_frame(points_);
     check_extents(frame_);
     if (frame_.rank > kMaxRank) {
       throw Error(ErrorCode::kDimensionTooHigh, "points span " + std::to_string(frame_.rank) +
@@ -74,6 +74,7 @@ class HullBuilder {
     std::vector<double> factor;
     if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
     growth_.emplace(points_, frame_, factor, options_, start_, hull_);
+    if (begun != nullptr) growth_->go_on_from(std::move(*begun));
     if (frame_.rank == 1) {
       make_segment();
     } else if (is_exact) {
@@ -384,8 +385,8 @@ class HullBuilder {
 };
 
 Hull build_hull(const PointView& points, const HullOptions& options, Clock::time_point start,
-                double input_bytes) {
-  return HullBuilder(points, options, start, input_bytes).run();
+                double input_bytes, BegunHull* begun) {
+  return HullBuilder(points, options, start, input_bytes).run(begun);
 }
 
 void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t point_count) {

@@ -5,16 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "approx/row_bits.h"
-#include "core/frame.h"
+#include "approx/sample_shape.h"
 #include "core/points.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
 
-/// |z| < radius with L z = y - m: y a point in the frame, m and L L' mean and covariance of a sample.
+/// |z| < radius, with z as a sample's shape has it (approx/sample_shape.h): L z = y - m.
 ///
 /// Proof  The simplices of a growing hull close around 0, and a segment from there to a point that is below
 ///        all their planes meets none of them: so they close around that point too, and it is inside. A point
@@ -26,15 +25,14 @@ class InnerEllipsoid {
  public:
   /// Contains nothing.
   InnerEllipsoid() = default;
-  /// The shape; of points in more than kMaxRank dimensions it contains nothing. `points`: count x frame.rank,
-  /// in the frame. `reach`: no point is longer than this in the frame, nor is the sum of the absolute terms
-  /// of its coordinates.
-  InnerEllipsoid(const Frame& frame, const double* points, std::size_t count, double reach);
+  /// `reach`: no point is longer than this in the frame, nor is the sum of the absolute terms of its
+  /// coordinates.
+  InnerEllipsoid(const SampleShape& shape, double reach);
 
   /// The size: as large as the hull contains one.
   void fit(const SimplicialComplex& complex);
-  /// Points that are looked at together.
-  static constexpr std::size_t kPoints = 64;
+  /// Points that are looked at together: one bit each.
+  static constexpr std::size_t kPoints = kWhitenedPoints;
   /// Which of these points of the input are well inside the hull? A bit each; 0 when that is not proven.
   /// Shapes  points: count x dimension, at most kPoints of them.
   std::uint64_t contains(const double* points, std::size_t count) const;
@@ -46,13 +44,8 @@ class InnerEllipsoid {
  private:
   double radius_below(std::span<const double> plane) const;
 
-  std::size_t rank_ = 0, dimension_ = 0;
-  bool is_diagonal_ = false;
-  std::vector<double> centre_, map_;  // of the frame
-  std::vector<double> mean_;          // in the frame
-  std::vector<double> factor_;        // L, rank x rank, row-major; empty: the sample has no extent somewhere
-  std::vector<double> inverse_pivots_;  // 1 / L_ii
-  double rounding_ = 0.0;               // of a point in the frame
+  SampleShape shape_;
+  double rounding_ = 0.0;  // of a point in the frame
   double radius_sq_ = 0.0;
 };
 

@@ -10,6 +10,7 @@
 #include "approx/inner_ellipsoid.h"
 #include "approx/row_bits.h"
 #include "approx/sample_hull.h"
+#include "approx/shard_overview.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/frame.h"
@@ -21,12 +22,12 @@ namespace {
 
 /// Points in the sample that the first hull is grown from; and how many directions, for each dimension, to
 /// take the extremes of among the part of the points that are furthest out.
-constexpr std::size_t kSample = 1 << 14;
-constexpr std::size_t kDirections = 256, kFurthestPart = 64;
+constexpr std::size_t kLeastSample = 1 << 12, kMostSample = 1 << 14, kPointsForASample = 256;
+constexpr std::size_t kDirections = 256, kFurthestPart = 128;
 /// And in the one that tells whether that is worth it.
 constexpr std::size_t kFirstSample = 2048;
-/// Points that are located at a time: what membership takes for one block. And rows that are copied.
-constexpr std::size_t kLocatedAtATime = 512, kCopiedAtATime = 1024;
+/// Points that are located at a time: what membership takes for one block.
+constexpr std::size_t kLocatedAtATime = 512;
 /// Passes at most, simplices at most, and points for each simplex that make a hull of so many worth growing.
 constexpr int kPasses = 4;
 constexpr std::size_t kMostRows = 250'000, kPointsForARow = 16;
@@ -35,6 +36,8 @@ constexpr std::size_t kMoreRows = 2;
 /// As few points left are no burden.
 constexpr std::size_t kFewPoints = 20'000;
 
+double length_sq_of(const double* y, std::size_t rank) { return std::inner_product(y, y + rank, y, 0.0); }
+
 class Reduction {
  public:
   Reduction(const PointShards& shards, std::uint64_t seed) : shards_(shards), blocks_(blocks_of(shards)) {
@@ -42,15 +45,17 @@ class Reduction {
     for (const PointShard& part : shards.parts) candidates_.emplace_back(part.points.rows);
   }
 
-  std::vector<std::uint32_t> run(const std::function<bool()>& is_late) {
-    if (!find_frame() || !find_ranges()) return all_candidates();
+  PointsToKeep run(const std::function<bool()>& is_late) {
+    if (!find_frame()) return {all_candidates(), {}};
+    ranges_ = find_column_ranges(shards_, blocks_);
+    if (!ranges_) return {all_candidates(), {}};
     start();
     const std::size_t most_rows = std::min(kMostRows, shards_.rows / kPointsForARow);
     std::size_t left = shards_.rows, rows = most_rows / kMoreRows;
     for (int pass = 0; pass < kPasses; ++pass) {
       work_.options.pause_rows = rows;
       pass == 0 ? grow_first(rows) : static_cast<void>(grow(work_));
-      if (pass == 0 && !drops_many()) return rows_of(shards_);
+      if (pass == 0 && !drops_many()) return {rows_of(shards_), {}};
       const std::size_t before = left;
       left = drop_inside();
       const bool pays = left > kFewPoints && (pass == 0 || left < before - before / 8);
@@ -58,7 +63,9 @@ class Reduction {
       if (!pays || rows <= work_.complex.row_count || shards_.any(is_late())) break;
       add_named();
     }
-    return all_candidates();
+    if (!is_to_go_on()) return {all_candidates(), {}};
+    for (const PointId id : frame_.simplex) put_back(rows_[id.value]);
+    return {all_candidates(), take_begun()};
   }
 
  private:
@@ -93,6 +100,28 @@ class Reduction {
     });
   }
 
+  /// Is the hull general, and well shaped also beside points that the sample has not?
+  bool is_to_go_on() const {
+    constexpr double kWellShaped = 1000.0;  // as for any frame (core/frame.cpp)
+    return work_.shifted_points.empty() && work_.counters.set_aside == 0 &&
+           reach_of_kept() <= kWellShaped * ball_.inner_radius;
+  }
+
+  void put_back(std::size_t row) {
+    for (std::size_t part = 0; part < candidates_.size(); ++part) {
+      const PointShard& shard = shards_.parts[part];
+      if (row >= shard.first_row && row - shard.first_row < shard.points.rows)
+        candidates_[part].put_back(row - shard.first_row);
+    }
+  }
+
+  BegunHull take_begun() {
+    ball_.reach = reach_of_kept();
+    frame_.column_min = ranges_->low;
+    frame_.column_max = ranges_->high;
+    return {std::move(frame_), ball_, take_grown(work_), std::move(rows_)};
+  }
+
   std::vector<std::uint32_t> all_candidates() const {
     std::vector<std::uint32_t> ids;
     for (std::size_t part = 0; part < candidates_.size(); ++part) {
@@ -104,73 +133,18 @@ class Reduction {
     return ids;
   }
 
-  /// Extent of each column over all points; false when one is not finite.
-  bool find_ranges() {
-    const std::size_t dimension = shards_.dimension;
-    std::vector<double> lows(blocks_.size() * dimension, HUGE_VAL), highs(lows.size(), -HUGE_VAL);
-    std::vector<std::uint8_t> is_finite(blocks_.size(), 1);
-    for_each_shard_block(shards_, blocks_, [&](std::size_t index, const ShardBlock& block) {
-      const PointView& points = shards_.parts[block.part].points;
-      for (std::size_t k = 0; k < dimension; ++k) {
-        double low = HUGE_VAL, high = -HUGE_VAL, sum = 0.0;
-        for (std::size_t row = block.begin; row < block.end; ++row) {
-          const double x = points.at(row, k);
-          low = std::min(low, x);
-          high = std::max(high, x);
-          sum += 0.0 * x;  // NaN where x is not finite
-        }
-        lows[index * dimension + k] = low;
-        highs[index * dimension + k] = high;
-        if (sum != 0.0) is_finite[index] = 0;
-      }
-    });
-    // -low, so that all that processes say is to be maximised.
-    std::vector<double> mine(2 * dimension, -HUGE_VAL);
-    for (std::size_t i = 0; i < lows.size(); ++i) {
-      mine[i % dimension] = std::max(mine[i % dimension], -lows[i]);
-      mine[dimension + i % dimension] = std::max(mine[dimension + i % dimension], highs[i]);
-    }
-    const std::vector<double> all = shards_.all_gather(mine);
-    low_.assign(dimension, HUGE_VAL);
-    high_.assign(dimension, -HUGE_VAL);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const std::size_t column = i % dimension;
-      if (i / dimension % 2 == 0) {
-        low_[column] = std::min(low_[column], -all[i]);
-      } else {
-        high_[column] = std::max(high_[column], all[i]);
-      }
-    }
-    return !shards_.any(std::count(is_finite.begin(), is_finite.end(), 0) != 0);
-  }
-
-  /// Some `count` points, evenly spread over the rows.
-  std::vector<double> take_sample(std::size_t count) const {
-    const std::size_t dimension = shards_.dimension, step = std::max<std::size_t>(1, shards_.rows / count);
-    std::vector<std::size_t> rows;
-    for (const PointShard& part : shards_.parts) {
-      const std::size_t end = part.first_row + part.points.rows;
-      for (std::size_t row = (part.first_row + step - 1) / step * step; row < end; row += step)
-        rows.push_back(row);
-    }
-    std::vector<double> sample(rows.size() * dimension);
-    for_each_block(rows.size(), kCopiedAtATime, [&](std::size_t begin, std::size_t end) {
-      RowCopier copier(shards_);
-      for (std::size_t i = begin; i < end; ++i) copier.copy(rows[i], sample.data() + i * dimension);
-    });
-    return shards_.all_gather(std::move(sample));
-  }
-
   /// The sample and its frame; false when it spans less than all dimensions, or when most points are
   /// vertices.
   bool find_frame() {
     const std::size_t dimension = shards_.dimension;
     if (dimension < 2 || dimension > kMaxRank) return false;
-    const std::vector<double> first = take_sample(kFirstSample);
-    sample_ = take_sample(kSample);
+    const std::vector<double> first = take_sample(shards_, kFirstSample).rows;
+    sample_ = take_sample(shards_, std::clamp(shards_.rows / kPointsForASample, kLeastSample, kMostSample));
+    for (std::size_t i = 0; i < sample().rows; ++i)
+      rows_.push_back(static_cast<std::uint32_t>(i * sample_.step));
     const auto is_finite = [](double x) { return std::isfinite(x); };
     if (!std::all_of(first.begin(), first.end(), is_finite)) return false;
-    if (!std::all_of(sample_.begin(), sample_.end(), is_finite)) return false;
+    if (!std::all_of(sample_.rows.begin(), sample_.rows.end(), is_finite)) return false;
     bool is_held = false;
     const PointView first_view = PointView::row_major(first.data(), first.size() / dimension, dimension);
     const auto hold = [&] { is_held = holds_some_of(first_view, work_.options.seed); };
@@ -185,22 +159,25 @@ class Reduction {
   }
 
   PointView sample() const {
-    return PointView::row_major(sample_.data(), sample_.size() / shards_.dimension, shards_.dimension);
+    return PointView::row_major(sample_.rows.data(), sample_.rows.size() / shards_.dimension,
+                                shards_.dimension);
   }
 
   /// The first simplex, of the sample and the points that are furthest along some directions.
   void start() {
     const std::size_t dimension = shards_.dimension;
+    work_.rank = dimension;
     append(sample());
     sample_size_ = work_.point_count;
-    const RowList extremes = find_direction_extremes(shards_, frame_, length_of_furthest(),
+    shape_ = SampleShape(frame_, coordinates_.data(), sample_size_);
+    const RowList extremes = find_direction_extremes(shards_, shape_, length_of_furthest(),
                                                      kDirections * dimension, work_.options.seed);
     append(PointView::row_major(extremes.rows.data(), extremes.ids.size(), dimension));
+    rows_.insert(rows_.end(), extremes.ids.begin(), extremes.ids.end());
     ball_ = find_ball(dimension, coordinates_.data(), work_.point_count, frame_.simplex);
     const double reach = reach_of_all();
     ball_.reach = std::max(ball_.reach, reach);
-    ellipsoid_ = InnerEllipsoid(frame_, coordinates_.data(), sample_size_, reach);
-    work_.rank = dimension;
+    ellipsoid_ = InnerEllipsoid(shape_, reach);
     work_.options.in_regions = true;
     start_growth(work_, frame_.simplex, FirstPoints());
   }
@@ -214,12 +191,13 @@ class Reduction {
     work_.points = coordinates_.data();
   }
 
-  /// In the frame, of the part of the sample that is furthest out the least.
+  /// |z| of the part of the sample that is furthest out: the least.
   double length_of_furthest() const {
-    std::vector<double> lengths(work_.point_count, 0.0);
-    for (std::size_t row = 0; row < lengths.size(); ++row)
-      for (std::size_t k = 0; k < frame_.rank; ++k)
-        lengths[row] += coordinates_[row * frame_.rank + k] * coordinates_[row * frame_.rank + k];
+    std::vector<double> lengths(sample_size_ + kWhitenedPoints), z(work_.rank * kWhitenedPoints);
+    for (std::size_t first = 0; first < sample_size_; first += kWhitenedPoints)
+      shape_.whiten(sample_.rows.data() + first * shards_.dimension,
+                    std::min(kWhitenedPoints, sample_size_ - first), z.data(), lengths.data() + first);
+    lengths.resize(sample_size_);
     const auto at =
         lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() - lengths.size() / kFurthestPart);
     if (at == lengths.end()) return 0.0;
@@ -233,13 +211,21 @@ class Reduction {
     for (std::size_t row = 0; row < frame_.rank; ++row) {
       double most = 0.0;
       for (std::size_t k = 0; k < frame_.dimension; ++k) {
-        const double largest =
-            std::max(std::abs(low_[k] - frame_.centre[k]), std::abs(high_[k] - frame_.centre[k]));
+        const double largest = std::max(std::abs(ranges_->low[k] - frame_.centre[k]),
+                                        std::abs(ranges_->high[k] - frame_.centre[k]));
         most += std::abs(frame_.map[row * frame_.dimension + k]) * largest;
       }
       length_sq += most * most;
     }
     return std::sqrt(length_sq) * (1.0 + 1e-14);
+  }
+
+  /// The longest of those that are left and of the hull's points, which all others are within the hull of.
+  double reach_of_kept() const {
+    double longest_sq = longest_left_ * longest_left_;
+    for (std::size_t point = 0; point < work_.point_count; ++point)
+      longest_sq = std::max(longest_sq, length_sq_of(coordinates_.data() + point * work_.rank, work_.rank));
+    return std::sqrt(longest_sq) * (1.0 + 1e-14);
   }
 
   /// Is a part of the sample inside that makes a pass over all points worth its time?
@@ -259,7 +245,7 @@ class Reduction {
 
   /// Drops the candidates that are inside the hull; returns how many are left, in all processes.
   std::size_t drop_inside() {
-    std::vector<std::size_t> left(blocks_.size(), 0);
+    std::vector<LeftInBlock> left(blocks_.size());
     std::vector<std::vector<OutsidePoint>> named(blocks_.size());
     ellipsoid_.fit(work_.complex);
     for_each_shard_block(shards_, blocks_, [&](std::size_t index, const ShardBlock& block) {
@@ -269,21 +255,34 @@ class Reduction {
     for (const std::vector<OutsidePoint>& points : named)
       named_.insert(named_.end(), points.begin(), points.end());
     keep_furthest(named_);
+    std::vector<double> said(2, 0.0);
+    for (const LeftInBlock& block : left) {
+      said[0] += static_cast<double>(block.count);
+      said[1] = std::max(said[1], block.longest_sq);
+    }
+    said = shards_.all_gather(std::move(said));
     double all = 0.0;
-    for (const double number :
-         shards_.all_gather({static_cast<double>(std::accumulate(left.begin(), left.end(), std::size_t{0}))}))
-      all += number;
+    longest_left_ = 0.0;
+    for (std::size_t at = 0; at < said.size(); at += 2) {
+      all += said[at];
+      longest_left_ = std::max(longest_left_, std::sqrt(said[at + 1]));
+    }
     return static_cast<std::size_t>(all);
   }
 
-  std::size_t drop_inside_block(const ShardBlock& block, std::vector<OutsidePoint>& named) {
+  struct LeftInBlock {
+    std::size_t count = 0;
+    double longest_sq = 0.0;  // of their lengths in the frame
+  };
+
+  LeftInBlock drop_inside_block(const ShardBlock& block, std::vector<OutsidePoint>& named) {
     const std::size_t dimension = shards_.dimension;
     const PointShard& part = shards_.parts[block.part];
     RowBits& candidates = candidates_[block.part];
     std::vector<double> rows(kLocatedAtATime * dimension), mapped(kLocatedAtATime * dimension + kPadding);
     std::vector<std::size_t> ids;
     std::vector<LocatedPoint> located;
-    std::size_t left = 0;
+    LeftInBlock left;
     const auto locate = [&] {
       located.resize(ids.size());
       map_points(PointView::row_major(rows.data(), ids.size(), dimension), frame_, mapped.data());
@@ -293,7 +292,8 @@ class Reduction {
           candidates.drop(ids[i]);
           continue;
         }
-        ++left;
+        ++left.count;
+        left.longest_sq = std::max(left.longest_sq, length_sq_of(mapped.data() + i * dimension, dimension));
         const auto id = static_cast<std::uint32_t>(part.first_row + ids[i]);
         if (std::isfinite(located[i].gauge)) named.push_back({located[i].gauge, id, located[i].simplex});
       }
@@ -341,6 +341,7 @@ class Reduction {
     }
     const std::size_t first = work_.point_count;
     append(PointView::row_major(rows.data(), chosen.size(), dimension));
+    for (const OutsidePoint& point : chosen) rows_.push_back(point.id);
     work_.next_outside.resize(work_.point_count, 0);
     work_.heights.extend(work_.point_count);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -358,21 +359,24 @@ class Reduction {
   const PointShards& shards_;
   std::vector<ShardBlock> blocks_;
   std::vector<RowBits> candidates_;  // of each part
-  std::vector<double> low_, high_;   // of each column
-  std::vector<double> sample_;       // some points of all
+  std::optional<ColumnRanges> ranges_;
+  RowSample sample_;
   Frame frame_;
-  std::vector<double> coordinates_;  // of the points that the hull is grown from
+  std::vector<std::uint32_t> rows_;  // of the points that the hull is grown from
+  std::vector<double> coordinates_;  // of these, in the frame
   std::size_t sample_size_ = 0;      // of these, the first
   HullBall ball_;
+  SampleShape shape_;
   InnerEllipsoid ellipsoid_;
   GrowthWork work_;
   std::vector<OutsidePoint> named_;
+  double longest_left_ = 0.0;  // in the frame
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> find_points_to_keep(const PointShards& shards, std::uint64_t seed,
-                                               const std::function<bool()>& is_late) {
+PointsToKeep find_points_to_keep(const PointShards& shards, std::uint64_t seed,
+                                 const std::function<bool()>& is_late) {
   return Reduction(shards, seed).run(is_late);
 }
 

@@ -22,6 +22,7 @@ class RowBits {
       for (std::uint64_t left = bits_[word]; left != 0; left &= left - 1)
         call(64 * word + static_cast<std::size_t>(std::countr_zero(left)));
   }
+  void put_back(std::size_t row) { bits_[row / 64] |= std::uint64_t{1} << (row % 64); }
   /// Threads may drop rows of different words at the same time.
   void drop(std::size_t row) { bits_[row / 64] &= ~(std::uint64_t{1} << (row % 64)); }
 

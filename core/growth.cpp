@@ -208,4 +208,23 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoint
   }
 }
 
+GrownHull take_grown(GrowthWork& work) {
+  forget_outside(work);
+  return {std::move(work.complex), std::move(work.free_rows), work.free_count, work.counters};
+}
+
+void start_growth(GrowthWork& work, GrownHull grown) {
+  work.complex = std::move(grown.complex);
+  work.free_rows = std::move(grown.free_rows);
+  work.free_count = grown.free_count;
+  work.counters = grown.counters;
+  work.next_outside.assign(work.point_count, 0);
+  work.heights.reset(work.point_count);
+  const std::vector<bool> is_vertex = find_corners(work.complex, 0, work.complex.row_count, work.point_count);
+  work.waiting.clear();
+  for (std::uint32_t id = 0; id < work.point_count; ++id)
+    if (!is_vertex[id]) work.waiting.push_back(id);
+  work.waiting_height = HUGE_VAL;
+}
+
 }  // namespace ndhull

@@ -97,6 +97,21 @@ struct FirstPoints {
 /// has grown.
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first);
 
+/// A hull of some points, as growth has left it: row of the tables by row, in use or free.
+struct GrownHull {
+  SimplicialComplex complex;
+  HugeArray<std::uint32_t> free_rows;
+  std::size_t free_count = 0;
+  GrowthCounters counters;
+};
+
+/// Empties the outside sets and takes the hull out of the work, which is done.
+GrownHull take_grown(GrowthWork& work);
+
+/// In place of `start_growth`: goes on from a hull of some of the points. Those that are no vertices of it
+/// wait, wherever they are, for the caller to place them. No point of the hull was shifted.
+void start_growth(GrowthWork& work, GrownHull grown);
+
 /// Adds outside points, the furthest of all first (but see in_regions), until none are left or a limit is
 /// hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
 /// height are left out then: no set has any.

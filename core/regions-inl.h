@@ -82,7 +82,7 @@ bool Grower<D>::may_grow_in_regions() {
 
 template <std::size_t D>
 bool Grower<D>::grow_in_regions(double furthest) {
-  constexpr std::uint64_t kFewInsertions = 16, kAlone = 32;
+  constexpr std::uint64_t kFewInsertions = 8, kAlone = 8;
   if (regions_.empty()) make_regions();
   if (!part_into_regions(furthest)) {
     parting_.next_at = books_.counters.insertions + kAlone;
@@ -137,7 +137,7 @@ void Grower<D>::list_apexes(double furthest) {
   }
   const std::size_t wanted = std::max<std::size_t>(kMany, books_.points_outside / kPartOfPoints);
   if (apexes_.size() < wanted / 2) {
-    parting_.band = std::min(0.8, parting_.band * 1.25);
+    parting_.band = std::min(RegionCounters().band, parting_.band * 1.25);
   } else if (apexes_.size() > 2 * wanted) {
     parting_.band *= 0.8;
   }
@@ -164,7 +164,7 @@ RegionBorder Grower<D>::choose_border(std::uint64_t direction) {
 /// Chooses a plane between the furthest points and lists those of each side; false: they are too few.
 template <std::size_t D>
 bool Grower<D>::part_into_regions(double furthest) {
-  constexpr std::size_t kFew = 16, kTrials = 4;
+  constexpr std::size_t kFew = 8, kTrials = 4;
   list_apexes(furthest);
   if (apexes_.size() < kFew) return false;
   const auto side_of = [&](const RegionApex& apex, double least) -> GrowthRegion* {

@@ -96,6 +96,58 @@ struct SmallHull {
   }
 };
 
+// Sums as documented, and that they mean what they say: L z = y - m, the sample round around 0.
+TEST(SampleShapeLaw, VectorsSolveWhatALoopSolvesAndTheSampleIsRound) {
+  for (const std::size_t dimension : {1u, 2u, 5u, 8u, 16u}) {
+    for (const bool turns : {false, true}) {
+      PointSet set = family_points(PointFamily::kGaussian, 3000, dimension, 400 + dimension);
+      for (std::size_t row = 0; row < set.rows(); ++row) {
+        set.row(row)[0] *= 7.0;
+        if (turns && dimension > 1) set.row(row)[1] += 2e4 * set.row(row)[0] + 1e6;
+      }
+      SCOPED_TRACE(set.header);
+      const Frame frame = fit_frame(set.view());
+      ASSERT_EQ(frame.rank, dimension);
+      EXPECT_EQ(frame.is_diagonal, !turns || dimension == 1);
+      std::vector<double> y(set.rows() * dimension), z(dimension * kWhitenedPoints), lengths(kWhitenedPoints);
+      map_points(set.view(), frame, y.data());
+      const SampleShape shape(frame, y.data(), set.rows());
+      std::vector<double> squares(dimension, 0.0), sums(dimension, 0.0);
+      for (std::size_t begin = 0; begin < set.rows(); begin += kWhitenedPoints) {
+        const std::size_t count = std::min(kWhitenedPoints, set.rows() - begin);
+        shape.whiten(set.row(begin).data(), count, z.data(), lengths.data());
+        for (std::size_t i = 0; i < count; ++i) {
+          double length_sq = 0.0;
+          std::vector<double> expected(dimension);
+          for (std::size_t row = 0; row < dimension; ++row) {
+            double sum = -shape.mean()[row];
+            for (std::size_t k = 0; k < dimension; ++k) {
+              if (frame.is_diagonal && k != row) continue;
+              const double term = frame.map[row * dimension + k] * (set.row(begin + i)[k] - frame.centre[k]);
+              sum = sum + term;
+            }
+            for (std::size_t k = 0; k < row; ++k) {
+              const double term = shape.factor()[row * dimension + k] * expected[k];
+              sum = sum - term;
+            }
+            expected[row] = sum * (1.0 / shape.factor()[row * dimension + row]);
+            const double square = expected[row] * expected[row];
+            length_sq = length_sq + square;
+            ASSERT_EQ(z[row * kWhitenedPoints + i], expected[row]);
+            sums[row] += expected[row];
+            squares[row] += square;
+          }
+          ASSERT_EQ(lengths[i], length_sq);
+        }
+      }
+      for (std::size_t row = 0; row < dimension; ++row) {
+        EXPECT_NEAR(sums[row] / 3000.0, 0.0, 1e-6);
+        EXPECT_NEAR(squares[row] / 3000.0, 1.0, 1e-6);
+      }
+    }
+  }
+}
+
 TEST(InnerEllipsoidLaw, WhatItContainsIsInsideAndSomethingIs) {
   for (const std::size_t dimension : {2u, 3u, 5u, 7u}) {
     for (const PointFamily family : {PointFamily::kGaussian, PointFamily::kBall, PointFamily::kCube}) {
@@ -105,7 +157,7 @@ TEST(InnerEllipsoidLaw, WhatItContainsIsInsideAndSomethingIs) {
       SCOPED_TRACE(set.header);
       const SmallHull hull(set.view());
       ASSERT_EQ(hull.frame.rank, dimension);
-      InnerEllipsoid ellipsoid(hull.frame, hull.coordinates.data(), set.rows(), hull.reach());
+      InnerEllipsoid ellipsoid(SampleShape(hull.frame, hull.coordinates.data(), set.rows()), hull.reach());
       EXPECT_EQ(ellipsoid.contains(set.row(0).data(), 1), 0U);  // it has no size yet
       ellipsoid.fit(hull.work.complex);
       std::size_t contained = 0;

@@ -37,7 +37,7 @@ TEST(ShardsLaw, WhatIsKeptDoesNotDependOnThePartsNorOnWhoHoldsThem) {
   for (const PointSet& set : reduced_sets()) {
     SCOPED_TRACE(set.header);
     const PointShards whole = PointShards::whole(set.view());
-    const std::vector<std::uint32_t> expected = find_points_to_keep(whole, 1, never_late);
+    const std::vector<std::uint32_t> expected = find_points_to_keep(whole, 1, never_late).rows;
     const std::vector<double> rows = numbers_of(ReducedPoints(whole, expected).view());
     const std::size_t n = set.rows();
     const std::vector<std::vector<std::size_t>> cuttings = {
@@ -45,7 +45,7 @@ TEST(ShardsLaw, WhatIsKeptDoesNotDependOnThePartsNorOnWhoHoldsThem) {
     for (const std::vector<std::size_t>& cuts : cuttings) {
       SCOPED_TRACE(std::to_string(cuts.size() - 1) + " processes");
       run_processes(set.view(), cuts, [&](std::size_t process, const PointShards& shards) {
-        const ReducedPoints kept(shards, find_points_to_keep(shards, 1, never_late));
+        const ReducedPoints kept(shards, find_points_to_keep(shards, 1, never_late).rows);
         if (process == 0) {
           EXPECT_EQ(kept.ids(), expected);
           EXPECT_EQ(numbers_of(kept.view()), rows);
@@ -61,7 +61,7 @@ TEST(ShardsLaw, WhatOneProcessFindsNotFiniteAllKeep) {
   PointSet set = family_points(PointFamily::kGaussian, 120'000, 3, 204);
   set.row(119'000)[1] = HUGE_VAL;
   run_processes(set.view(), {0, 50'000, 120'000}, [&](std::size_t process, const PointShards& shards) {
-    EXPECT_EQ(find_points_to_keep(shards, 1, never_late).size(), process == 0 ? 50'000U : 70'000U);
+    EXPECT_EQ(find_points_to_keep(shards, 1, never_late).rows.size(), process == 0 ? 50'000U : 70'000U);
   });
 }
 
@@ -69,12 +69,12 @@ TEST(ShardsLaw, WhenOneProcessIsLateAllEndTheSamePass) {
   const PointSet set = family_points(PointFamily::kGaussian, 200'000, 7, 205);
   std::size_t kept = 0;
   run_processes(set.view(), {0, 90'000, 200'000}, [&](std::size_t process, const PointShards& shards) {
-    const ReducedPoints points(shards, find_points_to_keep(shards, 1, [&] { return process == 1; }));
+    const ReducedPoints points(shards, find_points_to_keep(shards, 1, [&] { return process == 1; }).rows);
     if (process == 0) kept = points.ids().size();
   });
   const PointShards whole = PointShards::whole(set.view());
-  EXPECT_EQ(kept, find_points_to_keep(whole, 1, [] { return true; }).size());
-  EXPECT_GT(kept, find_points_to_keep(whole, 1, never_late).size());
+  EXPECT_EQ(kept, find_points_to_keep(whole, 1, [] { return true; }).rows.size());
+  EXPECT_GT(kept, find_points_to_keep(whole, 1, never_late).rows.size());
 }
 
 }  // namespace
