@@ -4,6 +4,8 @@
 
 namespace ndhull {
 
+std::uint64_t BegunHull::bytes() const { return grown.complex.row_count * (16 * frame.rank + 9); }
+
 bool BegunHull::rename_points(std::span<const std::uint32_t> kept) {
   std::vector<std::uint32_t> places(rows.size(), PointId::kNone);
   for (std::size_t point = 0; point < rows.size(); ++point) {

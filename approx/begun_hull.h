@@ -18,6 +18,8 @@ struct BegunHull {
   GrownHull grown;
   std::vector<std::uint32_t> rows;  ///< which row of the set each of its points is
 
+  /// Memory of its tables. [bytes]
+  std::uint64_t bytes() const;
   /// Calls its points by their places among `kept`, ascending rows of the set. False, and of no use any more,
   /// when one of its vertices is not among them.
   bool rename_points(std::span<const std::uint32_t> kept);

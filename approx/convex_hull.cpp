@@ -41,11 +41,14 @@ double input_bytes(const PointShards& shards) {
   return static_cast<double>(shards.rows * shards.dimension * scalar);
 }
 
-/// With a width most of a hull's facets are fewer than what was grown already. A limit on facets ends growth
-/// at any time: then the furthest of all points has to come first.
-bool may_go_on(const HullOptions& options) {
+/// With a width, or a number of facets, fewer may be wanted than were made already. A limit on facets ends
+/// growth at any time: then the furthest of all points has to come first. So it has to where memory is short.
+bool may_go_on(const BegunHull& begun, const HullOptions& options) {
+  constexpr std::uint64_t kMemoryForIt = 8;
   const bool is_exact = options.accuracy.is_exact() || options.accuracy.is_for_volume();
-  return is_exact && options.limits.max_facets == 0 && options.shift <= HullOptions().shift;
+  const std::uint64_t most = options.limits.max_memory_bytes;
+  return is_exact && options.limits.max_facets == 0 && options.shift <= HullOptions().shift &&
+         (most == 0 || most >= kMemoryForIt * begun.bytes());
 }
 
 /// The hull in terms of the rows of `reduced`.
@@ -55,7 +58,7 @@ Hull hull_of_reduced(const ReducedPoints& reduced, const PointShards& shards, Hu
   for (std::uint64_t* most : {&options.limits.max_memory_bytes, &options.limits.machine_memory_bytes})
     if (*most > reduced.bytes()) *most -= reduced.bytes();
   const PointView view = reduced.view();
-  const bool goes_on = begun && may_go_on(options) && begun->rename_points(reduced.ids());
+  const bool goes_on = begun && may_go_on(*begun, options) && begun->rename_points(reduced.ids());
   if (!goes_on) begun.reset();  // its memory is wanted
   Hull hull = build_hull(view, options, start, input_bytes(shards), goes_on ? &*begun : nullptr);
   hull.statistics.dropped_points = shards.rows - view.rows;

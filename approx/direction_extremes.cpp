@@ -65,15 +65,15 @@ RowList find_direction_extremes(const PointShards& shards, const SampleShape& sh
   for_each_shard_block(shards, blocks, [&](std::size_t index, const ShardBlock& block) {
     const PointShard& part = shards.parts[block.part];
     Tile tile(directions, rank);
-    std::vector<double> z(rank * kWhitenedPoints), length_sq(kWhitenedPoints),
-        rows(dimension * kWhitenedPoints);
+    std::vector<double> z(rank * kWhitenedPoints), length_sq(kWhitenedPoints);
+    std::vector<std::size_t> rows;
     for (std::size_t first = block.begin; first < block.end; first += kWhitenedPoints) {
-      const std::size_t points = std::min(kWhitenedPoints, block.end - first);
-      for (std::size_t i = 0; i < points; ++i) part.points.copy_row(first + i, rows.data() + i * dimension);
-      shape.whiten(rows.data(), points, z.data(), length_sq.data());
-      for (std::size_t i = 0; i < points; ++i)
+      rows.resize(std::min(kWhitenedPoints, block.end - first));
+      std::iota(rows.begin(), rows.end(), first);
+      shape.whiten(part.points, rows, z.data(), length_sq.data());
+      for (std::size_t i = 0; i < rows.size(); ++i)
         if (length_sq[i] >= least_sq)
-          tile.add(z.data(), i, static_cast<std::uint32_t>(part.first_row + first + i));
+          tile.add(z.data(), i, static_cast<std::uint32_t>(part.first_row + rows[i]));
     }
     found[index] = tile.finish();
   });

@@ -58,13 +58,13 @@ void InnerEllipsoid::fit(const SimplicialComplex& complex) {
   if (radius > 0.0 && radius < HUGE_VAL) radius_sq_ = radius * radius;
 }
 
-std::uint64_t InnerEllipsoid::contains(const double* points, std::size_t count) const {
-  if (radius_sq_ == 0.0 || count == 0) return 0;
+std::uint64_t InnerEllipsoid::contains(const PointView& points, std::span<const std::size_t> rows) const {
+  if (radius_sq_ == 0.0 || rows.empty()) return 0;
   std::array<double, kMaxRank * kPoints> z;
   std::array<double, kPoints> length_sq;
-  shape_.whiten(points, count, z.data(), length_sq.data());
+  shape_.whiten(points, rows, z.data(), length_sq.data());
   std::uint64_t inside = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < rows.size(); ++i)
     inside |= static_cast<std::uint64_t>(length_sq[i] < radius_sq_ ? 1 : 0) << i;
   return inside;
 }
@@ -72,11 +72,18 @@ std::uint64_t InnerEllipsoid::contains(const double* points, std::size_t count) 
 void InnerEllipsoid::drop_inside(const PointView& points, std::size_t begin, std::size_t end,
                                  RowBits& rows) const {
   if (radius_sq_ == 0.0) return;
-  for_some_rows(points, begin, end, rows,
-                [&](const std::size_t* ids, const double* copies, std::size_t count) {
-                  for (std::uint64_t inside = contains(copies, count); inside != 0; inside &= inside - 1)
-                    rows.drop(ids[std::countr_zero(inside)]);
-                });
+  std::array<std::size_t, kPoints> some;
+  std::size_t count = 0;
+  const auto look = [&] {
+    for (std::uint64_t inside = contains(points, {some.data(), count}); inside != 0; inside &= inside - 1)
+      rows.drop(some[static_cast<std::size_t>(std::countr_zero(inside))]);
+    count = 0;
+  };
+  rows.for_each(begin, end, [&](std::size_t row) {
+    some[count++] = row;
+    if (count == kPoints) look();
+  });
+  look();
 }
 
 }  // namespace ndhull

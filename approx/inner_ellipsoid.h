@@ -33,9 +33,9 @@ class InnerEllipsoid {
   void fit(const SimplicialComplex& complex);
   /// Points that are looked at together: one bit each.
   static constexpr std::size_t kPoints = kWhitenedPoints;
-  /// Which of these points of the input are well inside the hull? A bit each; 0 when that is not proven.
-  /// Shapes  points: count x dimension, at most kPoints of them.
-  std::uint64_t contains(const double* points, std::size_t count) const;
+  /// Which of these rows of the input, at most kPoints, are well inside the hull? A bit each; 0 when that is
+  /// not proven.
+  std::uint64_t contains(const PointView& points, std::span<const std::size_t> rows) const;
 
   /// Drops of the rows from `begin` to before `end` (as RowBits has them) those inside. What is inside by
   /// this is inside every later hull of the growth by far more than rounding.

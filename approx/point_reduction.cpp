@@ -194,9 +194,12 @@ class Reduction {
   /// |z| of the part of the sample that is furthest out: the least.
   double length_of_furthest() const {
     std::vector<double> lengths(sample_size_ + kWhitenedPoints), z(work_.rank * kWhitenedPoints);
-    for (std::size_t first = 0; first < sample_size_; first += kWhitenedPoints)
-      shape_.whiten(sample_.rows.data() + first * shards_.dimension,
-                    std::min(kWhitenedPoints, sample_size_ - first), z.data(), lengths.data() + first);
+    std::vector<std::size_t> rows;
+    for (std::size_t first = 0; first < sample_size_; first += kWhitenedPoints) {
+      rows.resize(std::min(kWhitenedPoints, sample_size_ - first));
+      std::iota(rows.begin(), rows.end(), first);
+      shape_.whiten(sample(), rows, z.data(), lengths.data() + first);
+    }
     lengths.resize(sample_size_);
     const auto at =
         lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() - lengths.size() / kFurthestPart);

@@ -1,8 +1,11 @@
 #include "approx/sample_shape.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 
 #include "core/dense_views.h"
+#include "core/dimension_switch.h"
 
 namespace ndhull {
 
@@ -25,10 +28,33 @@ SampleShape::SampleShape(const Frame& frame, const double* points, std::size_t c
   for (Eigen::Index i = 0; i < rank; ++i) inverse_pivots_.push_back(1.0 / factor(i, i));
 }
 
-void SampleShape::whiten(const double* points, std::size_t count, double* z, double* length_sq) const {
-  whiten_points({rank_, dimension_, is_diagonal_, centre_.data(), map_.data(), mean_.data(), factor_.data(),
-                 inverse_pivots_.data()},
-                points, count, z, length_sq);
+namespace {
+
+/// The rows less the centre, in columns.
+template <class Scalar>
+void shift_rows(const PointView& points, std::span<const std::size_t> rows, const double* centre,
+                double* columns) {
+  const Scalar* const data = static_cast<const Scalar*>(points.data);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Scalar* const row = data + rows[i] * points.row_stride;
+    for (std::size_t k = 0; k < points.dimension; ++k)
+      columns[k * kWhitenedPoints + i] = static_cast<double>(row[k * points.column_stride]) - centre[k];
+  }
+}
+
+}  // namespace
+
+void SampleShape::whiten(const PointView& points, std::span<const std::size_t> rows, double* z,
+                         double* length_sq) const {
+  std::array<double, kMaxRank * kWhitenedPoints> columns;
+  const auto shift = points.type == ScalarType::kFloat64 ? shift_rows<double> : shift_rows<float>;
+  shift(points, rows, centre_.data(), columns.data());
+  for (std::size_t k = 0; k < dimension_; ++k)
+    std::fill(columns.data() + k * kWhitenedPoints + rows.size(), columns.data() + (k + 1) * kWhitenedPoints,
+              0.0);
+  whiten_columns(
+      {rank_, dimension_, is_diagonal_, map_.data(), mean_.data(), factor_.data(), inverse_pivots_.data()},
+      columns.data(), rows.size(), z, length_sq);
 }
 
 }  // namespace ndhull

@@ -2,7 +2,6 @@
 // first.
 #include "approx/sample_shape_kernel.h"
 
-#include "core/dimension_switch.h"
 #include "core/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/sample_shape_kernel.cpp"
@@ -15,16 +14,10 @@ namespace ndhull {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void whiten_in_vectors(const WhiteningTables& tables, const double* HWY_RESTRICT points, std::size_t count,
+void whiten_in_vectors(const WhiteningTables& tables, const double* HWY_RESTRICT columns, std::size_t count,
                        double* HWY_RESTRICT z, double* HWY_RESTRICT length_sq) {
   const hn::CappedTag<double, 8> tag;
   const std::size_t lanes = hn::Lanes(tag), rank = tables.rank, dimension = tables.dimension;
-  HWY_ALIGN double shifted[kMaxRank * kWhitenedPoints];
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t k = 0; k < dimension; ++k)
-      shifted[k * kWhitenedPoints + i] = points[i * dimension + k] - tables.centre[k];
-  for (std::size_t k = 0; k < dimension; ++k)
-    for (std::size_t i = count; i < kWhitenedPoints; ++i) shifted[k * kWhitenedPoints + i] = 0.0;
   for (std::size_t first = 0; first < count; first += lanes) {
     auto sum_sq = hn::Zero(tag);
     for (std::size_t row = 0; row < rank; ++row) {
@@ -32,7 +25,7 @@ void whiten_in_vectors(const WhiteningTables& tables, const double* HWY_RESTRICT
       const std::size_t from = tables.is_diagonal ? row : 0, to = tables.is_diagonal ? row + 1 : dimension;
       for (std::size_t k = from; k < to; ++k) {
         const auto entry = hn::Set(tag, tables.map[row * dimension + k]);
-        y = hn::Add(y, hn::Mul(entry, hn::Load(tag, shifted + k * kWhitenedPoints + first)));
+        y = hn::Add(y, hn::Mul(entry, hn::LoadU(tag, columns + k * kWhitenedPoints + first)));
       }
       for (std::size_t k = 0; k < row; ++k) {
         const auto entry = hn::Set(tag, tables.factor[row * rank + k]);
@@ -53,9 +46,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ndhull {
 
-void whiten_points(const WhiteningTables& tables, const double* points, std::size_t count, double* z,
-                   double* length_sq) {
-  NDHULL_BEST_OF(whiten_in_vectors)(tables, points, count, z, length_sq);
+void whiten_columns(const WhiteningTables& tables, const double* columns, std::size_t count, double* z,
+                    double* length_sq) {
+  NDHULL_BEST_OF(whiten_in_vectors)(tables, columns, count, z, length_sq);
 }
 
 }  // namespace ndhull

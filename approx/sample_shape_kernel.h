@@ -12,11 +12,12 @@ inline constexpr std::size_t kWhitenedPoints = 64;
 struct WhiteningTables {
   std::size_t rank, dimension;
   bool is_diagonal;
-  const double *centre, *map, *mean, *factor, *inverse_pivots;
+  const double *map, *mean, *factor, *inverse_pivots;
 };
 
-/// As SampleShape::whiten. Behind the last point z and length_sq are anything.
-void whiten_points(const WhiteningTables& tables, const double* points, std::size_t count, double* z,
-                   double* length_sq);
+/// z and |z|^2 of points less the frame's centre, which are in columns of kWhitenedPoints, as z is. Behind
+/// the last point they may be anything that is finite.
+void whiten_columns(const WhiteningTables& tables, const double* columns, std::size_t count, double* z,
+                    double* length_sq);
 
 }  // namespace ndhull

@@ -15,6 +15,8 @@ DIAMONDS = ROOT / "bench" / "data" / "diamonds7.npy"
 SCRATCH = pathlib.Path(os.environ["NDHULL_SCRATCH"])
 # Seconds for one program; more where the build is slow (presets with sanitizers).
 PATIENCE = 0.4 * float(os.environ.get("NDHULL_TEST_SECONDS", "300"))
+# False where a sanitizer's own memory hides what the program takes.
+MEMORY_IS_MEASURED = os.environ.get("NDHULL_TEST_MEMORY", "1") == "1"
 
 
 def fresh_folder(name):
@@ -47,6 +49,11 @@ def rbox(arguments, path):
 
 def report_of(*arguments, **keywords):
     return json.loads(run("hull", *arguments, "--report", "-", **keywords).stdout)
+
+
+def keeps_memory(report, most):
+    """The report says that the process has kept a limit, with the tenth above it that limits have."""
+    assert not MEMORY_IS_MEASURED or report["peak_memory_bytes"] < 1.1 * most, report["peak_memory_bytes"]
 
 
 def run_tests(tests):

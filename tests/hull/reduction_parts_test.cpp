@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -96,6 +97,12 @@ struct SmallHull {
   }
 };
 
+std::vector<std::size_t> rows_from(std::size_t first, std::size_t count) {
+  std::vector<std::size_t> rows(count);
+  std::iota(rows.begin(), rows.end(), first);
+  return rows;
+}
+
 // Sums as documented, and that they mean what they say: L z = y - m, the sample round around 0.
 TEST(SampleShapeLaw, VectorsSolveWhatALoopSolvesAndTheSampleIsRound) {
   for (const std::size_t dimension : {1u, 2u, 5u, 8u, 16u}) {
@@ -115,7 +122,7 @@ TEST(SampleShapeLaw, VectorsSolveWhatALoopSolvesAndTheSampleIsRound) {
       std::vector<double> squares(dimension, 0.0), sums(dimension, 0.0);
       for (std::size_t begin = 0; begin < set.rows(); begin += kWhitenedPoints) {
         const std::size_t count = std::min(kWhitenedPoints, set.rows() - begin);
-        shape.whiten(set.row(begin).data(), count, z.data(), lengths.data());
+        shape.whiten(set.view(), rows_from(begin, count), z.data(), lengths.data());
         for (std::size_t i = 0; i < count; ++i) {
           double length_sq = 0.0;
           std::vector<double> expected(dimension);
@@ -158,15 +165,15 @@ TEST(InnerEllipsoidLaw, WhatItContainsIsInsideAndSomethingIs) {
       const SmallHull hull(set.view());
       ASSERT_EQ(hull.frame.rank, dimension);
       InnerEllipsoid ellipsoid(SampleShape(hull.frame, hull.coordinates.data(), set.rows()), hull.reach());
-      EXPECT_EQ(ellipsoid.contains(set.row(0).data(), 1), 0U);  // it has no size yet
+      EXPECT_EQ(ellipsoid.contains(set.view(), rows_from(0, 1)), 0U);  // it has no size yet
       ellipsoid.fit(hull.work.complex);
       std::size_t contained = 0;
       for (std::size_t begin = 0; begin < set.rows(); begin += InnerEllipsoid::kPoints) {
         const std::size_t count = std::min(InnerEllipsoid::kPoints, set.rows() - begin);
-        const std::uint64_t inside = ellipsoid.contains(set.row(begin).data(), count);
+        const std::uint64_t inside = ellipsoid.contains(set.view(), rows_from(begin, count));
         EXPECT_EQ(count < 64 ? inside >> count : 0, 0U);
         for (std::size_t i = 0; i < count; ++i) {
-          EXPECT_EQ(ellipsoid.contains(set.row(begin + i).data(), 1), inside >> i & 1);
+          EXPECT_EQ(ellipsoid.contains(set.view(), rows_from(begin + i, 1)), inside >> i & 1);
           if ((inside >> i & 1) == 0) continue;
           ++contained;
           EXPECT_LT(hull.gauge(hull.coordinates.data() + (begin + i) * dimension), -1e-9L);
