@@ -5,10 +5,12 @@
 
 #include "approx/boundedness.h"
 #include "approx/cluster_merge.h"
+#include "approx/exact_facets.h"
 #include "approx/merge_rule.h"
 #include "approx/segment_merge.h"
 #include "approx/slab_partition.h"
 #include "core/ids.h"
+#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
@@ -262,17 +264,31 @@ void Approximation::join_neighbours(Covering& covering, double width) const {
   if (keeps_hull(joined)) covering = std::move(joined);
 }
 
+/// Of a hull without shifted points: no plane changes.
+std::span<const double> Approximation::find_determinants() {
+  SimplicialComplex& complex = growth_.work().complex;
+  if (determinants_.data() == nullptr) {
+    const Clock::time_point start = Clock::now();
+    determinants_ = HugeArray<double>(complex.row_count);
+    solve_outwards(complex, growth_.coordinates(), {}, {determinants_.data(), complex.row_count});
+    hull_.statistics.detail_seconds.emplace_back("volumes", seconds_since(start));
+  }
+  return {determinants_.data(), complex.row_count};
+}
+
 /// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
 /// overlapping ones are better.
-std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) const {
+std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
   const SimplicialComplex& complex = growth_.work().complex;
   const double* coordinates = growth_.coordinates();
   const PointsAbove above = !growth_.work().shifted_points.empty() ? PointsAbove::kAny
                             : is_convex()                          ? PointsAbove::kNoPoint
                                                                    : PointsAbove::kLeftOut;
+  FindDeterminants find;
+  if (above != PointsAbove::kAny) find = [this] { return find_determinants(); };
   std::optional<DualFacets> facets =
-      partition_into_slabs(complex, *space_, coordinates, factor_, above, width);
-  if (!facets) return std::nullopt;
+      partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
+  if (!facets || !facets->is_listed()) return facets;
   const std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
   join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
   return facets;
@@ -282,7 +298,7 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) const
 /// so that they bound a region and hardly any two would fit into one slab.
 bool Approximation::is_final(const DualFacets& facets) const {
   return facets.all_fit && growth_.left_out().size() <= kFewLeftOut && facets.count() > kSurelyBounded &&
-         !is_worth_joining(facets.count(), facets.members.size());
+         !is_worth_joining(facets.count(), growth_.work().complex.row_count - growth_.work().free_count);
 }
 
 /// No planes: not even slabs as thin as rounding leave a hull.
@@ -319,6 +335,7 @@ FacetClusters Approximation::run_width() {
   if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
     const bool is_last = round == kRounds;
+    determinants_ = HugeArray<double>();
     grow_for_width(outside_width, slab);
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};

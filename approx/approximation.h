@@ -14,6 +14,7 @@
 #include "approx/slab_cover.h"
 #include "approx/star_hull.h"
 #include "approx/width_space.h"
+#include "core/huge_array.h"
 #include "core/point_tree.h"
 
 namespace ndhull {
@@ -55,12 +56,15 @@ class Approximation {
   bool may_do_without_complex() const;
   /// What run() found instead of clusters, if it did.
   std::optional<StarHull>& star_hull() { return star_hull_; }
+  /// solve_outwards of all rows, if run() asked for them; else no memory.
+  HugeArray<double> take_determinants() { return std::move(determinants_); }
 
  private:
   void make_space(bool with_left_out);
   bool is_worth_joining(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
-  std::optional<DualFacets> find_disjoint_slabs(double width) const;
+  std::span<const double> find_determinants();
+  std::optional<DualFacets> find_disjoint_slabs(double width);
   bool is_final(const DualFacets& facets) const;
   Covering cover_width(double width, std::optional<DualFacets> slabs);
   /// What the search for a number of facets remembers.
@@ -119,7 +123,8 @@ class Approximation {
   bool has_run_out_before_;
   bool has_too_many_vertices_ = false;  // for stars, as far as is foreseen
   std::optional<StarHull> star_hull_;
-  std::vector<PointId> extra_;  // points that reached further than the space knew
+  HugeArray<double> determinants_;  // per row, of the hull as it is now; no memory: not known
+  std::vector<PointId> extra_;      // points that reached further than the space knew
   std::optional<WidthSpace> space_;
   std::optional<PointTree>
       left_out_tree_;  // of left_out(), as rows of the space's kind; none: there are none

@@ -45,6 +45,7 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   std::transform(facets.simplices.data(), facets.simplices.data() + complex.row_count,
                  covering.facet_of.begin(), [](const SimplexPlace& simplex) { return simplex.facet; });
   covering.planes.resize(facets.count());
+  const FacetMembers members(covering);
   struct MeasureScratch {
     PlaneFitWork work;
     std::vector<std::uint32_t> vertices, last_facet;  // per row of the space: that met it
@@ -58,12 +59,12 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
       std::vector<double> normal(complex.rank);
       space.normal_of(facets.plane(facet), normal.data());
       FittedPlane& plane = covering.planes[facet];
-      if (facets.size(facet) == 1 && facets.own_plane[facet] == kNone) {
+      if (members.of(facet).size() == 1 && facets.own_plane[facet] == kNone) {
         plane.normal = std::move(normal);
         continue;
       }
       scratch.vertices.clear();
-      for (const std::uint32_t simplex : facets.members_of(facet)) {
+      for (const std::uint32_t simplex : members.of(facet)) {
         for (const PointId id : complex.vertices(SimplexId{simplex})) {
           const std::uint32_t row = space.row_of(id);
           if (scratch.last_facet[row] == facet) continue;
@@ -79,20 +80,25 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
 }
 
 FacetClusters clusters_of(const DualFacets& facets) {
-  FacetClusters clusters;
-  std::vector<std::uint32_t> cluster(facets.count(), kNone);
-  for (std::size_t facet = 0; facet < facets.count(); ++facet)
-    if (facets.size(facet) > 1 || facets.own_plane[facet] != kNone) cluster[facet] = clusters.count++;
   const std::size_t rank = facets.complex->rank, rows = facets.complex->row_count;
+  const SimplexPlace* const places = facets.simplices.data();
+  std::vector<std::uint32_t> cluster(facets.count(), 0);  // simplices first, then which cluster
+  for (std::size_t row = 0; row < rows; ++row)
+    if (places[row].facet != kNone) ++cluster[places[row].facet];
+  FacetClusters clusters;
+  for (std::size_t facet = 0; facet < facets.count(); ++facet) {
+    const bool is_cluster = cluster[facet] > 1 || facets.own_plane[facet] != kNone;
+    cluster[facet] = is_cluster ? clusters.count++ : kNone;
+  }
   clusters.planes.resize(clusters.count * rank);
   for (std::size_t facet = 0; facet < facets.count(); ++facet) {
     if (cluster[facet] == kNone) continue;
     std::ranges::copy(facets.plane(facet), clusters.planes.data() + cluster[facet] * rank);
   }
   clusters.cluster_of.resize(rows);
-  std::transform(
-      facets.simplices.data(), facets.simplices.data() + rows, clusters.cluster_of.begin(),
-      [&](const SimplexPlace& simplex) { return simplex.facet == kNone ? kNone : cluster[simplex.facet]; });
+  std::transform(places, places + rows, clusters.cluster_of.begin(), [&](const SimplexPlace& simplex) {
+    return simplex.facet == kNone ? kNone : cluster[simplex.facet];
+  });
   return clusters;
 }
 

@@ -28,26 +28,29 @@ struct SimplexPlace {
 /// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
 struct DualFacets {
   const SimplicialComplex* complex = nullptr;
-  HugeArray<SimplexPlace> simplices;   ///< per row of the complex
+  HugeArray<SimplexPlace> simplices;     ///< per row of the complex
+  std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
+  std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
+  std::vector<double> own_planes;        ///< planes x rank
+  bool all_fit = true;                   ///< no simplex that is a facet alone is thicker than the width
+
+  // What joining facets has to know. Not listed: empty.
   std::vector<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
   std::vector<std::uint32_t> begin;    ///< of each facet in `members`, and the end
   /// Of facets of several simplices the different vertices, facet by facet; of others none.
   std::vector<PointId> vertices;
-  std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end; empty: not listed
-  std::vector<std::uint32_t> own_plane;     ///< per facet: which of own_planes; kNone: its seed's
-  std::vector<double> own_planes;           ///< planes x rank
+  std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end
   std::vector<double> tops;                 ///< per facet: no a.y of a point of the space is larger
   std::vector<float> lengths;  ///< per facet: |R a|, one over the plane's distance from the centre
-  bool all_fit = true;         ///< no simplex that is a facet alone is thicker than the width
 
-  std::size_t count() const { return tops.size(); }
-  std::uint32_t seed(std::size_t facet) const { return members[begin[facet]]; }
+  std::size_t count() const { return seeds.size(); }
+  bool is_listed() const { return !begin.empty(); }
   std::size_t size(std::size_t facet) const { return begin[facet + 1] - begin[facet]; }
   std::span<const std::uint32_t> members_of(std::size_t facet) const {
     return {members.data() + begin[facet], size(facet)};
   }
   std::span<const double> plane(std::size_t facet) const {
-    if (own_plane[facet] == kNone) return complex->plane(SimplexId{seed(facet)});
+    if (own_plane[facet] == kNone) return complex->plane(SimplexId{seeds[facet]});
     return {own_planes.data() + own_plane[facet] * complex->rank, complex->rank};
   }
 };

@@ -37,7 +37,6 @@ struct RowKinds {
   std::array<std::size_t, kKinds> count{};
 };
 
-/// Looks at the neighbours of what is merged, where that is less than half.
 RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clusters) {
   const auto count = static_cast<std::uint32_t>(complex.row_count);
   RowKinds kinds;
@@ -46,12 +45,6 @@ RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clust
     const bool is_merged = clusters.cluster_of[row] != kNone;
     kinds.of_row[row] = is_merged ? kMerged : kRegular;
     kinds.count[kMerged] += is_merged ? 1u : 0u;
-  }
-  const std::size_t alone = count - kinds.count[kMerged];
-  if (kinds.count[kMerged] >= alone) {  // hardly any is beside none
-    std::ranges::replace(kinds.of_row, kRegular, kBeside);
-    kinds.count[kBeside] = alone;
-    return kinds;
   }
   for (std::uint32_t row = 0; row < count; ++row) {
     if (kinds.of_row[row] != kMerged) continue;
@@ -62,7 +55,7 @@ RowKinds find_kinds(const SimplicialComplex& complex, const FacetClusters& clust
       kind = kBeside;
     }
   }
-  kinds.count[kRegular] = alone - kinds.count[kBeside];
+  kinds.count[kRegular] = count - kinds.count[kMerged] - kinds.count[kBeside];
   return kinds;
 }
 
@@ -90,6 +83,7 @@ std::vector<std::uint32_t> row_order(const RowKinds& kinds) {
 /// The places of clusters in the order of their first simplex, and how many simplices each has.
 struct ClusterPlaces {
   std::vector<std::uint32_t> place_of, cluster_at, size;
+  std::size_t merged_rows = 0;
 };
 
 ClusterPlaces find_places(const FacetClusters& clusters) {
@@ -103,25 +97,36 @@ ClusterPlaces find_places(const FacetClusters& clusters) {
       places.cluster_at.push_back(cluster);
     }
     ++places.size[places.place_of[cluster]];
+    ++places.merged_rows;
   }
   return places;
 }
 
-/// Fills the tables of merged facets.
-void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places,
-                    std::span<const std::uint32_t> old_of_new, FacetLayout& layout) {
+/// Fills the tables of simplices. `old_row`: of each row; the clusters know those.
+template <class OldRow>
+void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places, const OldRow& old_row,
+                    FacetLayout& layout) {
   const auto simplicial = static_cast<std::uint32_t>(layout.simplicial);
+  const auto rows = static_cast<std::uint32_t>(clusters.cluster_of.size());
+  const auto in_place = static_cast<std::uint32_t>(layout.in_place);
   std::vector<std::uint32_t> next(clusters.count);
   std::exclusive_scan(places.size.begin(), places.size.end(), next.begin(), simplicial);
   layout.merged_begin = next;
-  layout.merged_begin.push_back(static_cast<std::uint32_t>(old_of_new.size()));
-  layout.simplices.resize(old_of_new.size());
-  layout.facet_of_merged.resize(old_of_new.size() - simplicial);
-  for (std::uint32_t row = 0; row < simplicial; ++row) layout.simplices[row] = SimplexId{row};
-  for (std::uint32_t row = simplicial; row < old_of_new.size(); ++row) {
-    const std::uint32_t place = places.place_of[clusters.cluster_of[old_of_new[row]]];
-    layout.simplices[next[place]++] = SimplexId{row};
-    layout.facet_of_merged[row - simplicial] = FacetId{simplicial + place};
+  layout.merged_begin.push_back(rows);
+  layout.simplices.resize(rows);
+  layout.facet_of_others.resize(rows - in_place);
+  for (std::uint32_t row = 0; row < in_place; ++row) layout.simplices[row] = SimplexId{row};
+  std::uint32_t alone = in_place;
+  for (std::uint32_t row = in_place; row < rows; ++row) {
+    const std::uint32_t cluster = clusters.cluster_of[old_row(row)];
+    std::uint32_t facet = alone;
+    if (cluster == kNone) {
+      layout.simplices[alone++] = SimplexId{row};
+    } else {
+      facet = simplicial + places.place_of[cluster];
+      layout.simplices[next[places.place_of[cluster]]++] = SimplexId{row};
+    }
+    layout.facet_of_others[row - in_place] = FacetId{facet};
   }
 }
 
@@ -130,16 +135,23 @@ struct MergedSums {
   std::vector<double> determinants, area_vectors, surface;
 };
 
-/// As the rows stand in memory.
+/// As the rows stand in memory: of many facets the sums are anywhere, and fetched some rows ahead.
 template <std::size_t D>
 void sum_rows(const SimplicialComplex& complex, std::span<const double> determinants,
               const FacetClusters& clusters, const ClusterPlaces& places, std::span<const double> factor,
               MergedSums& sums) {
+  constexpr std::size_t kAhead = 8;
   const GradientLength<D> length_of(factor);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+  for (std::size_t row = 0; row < complex.row_count; ++row) {
+    const std::uint32_t later = clusters.cluster_of[std::min(row + kAhead, complex.row_count - 1)];
+    if (later != kNone) {
+      const double* const sum = sums.area_vectors.data() + std::size_t{places.place_of[later]} * D;
+      __builtin_prefetch(sum, 1);
+      __builtin_prefetch(sum + D - 1, 1);
+    }
     if (clusters.cluster_of[row] == kNone) continue;
     const std::size_t m = places.place_of[clusters.cluster_of[row]];
-    const double* plane = complex.plane(SimplexId{row}).data();
+    const double* plane = complex.planes.data() + row * D;
     double* area_vector = sums.area_vectors.data() + m * D;
     for (std::size_t k = 0; k < D; ++k) area_vector[k] += determinants[row] * plane[k];
     sums.surface[m] += determinants[row] * length_of(plane);
@@ -172,7 +184,7 @@ ScaledFactor scale_factor(std::span<const double> gradient_factor) {
 
 FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   FacetLayout layout;
-  layout.regular = layout.simplicial = layout.facets = complex.row_count;
+  layout.regular = layout.in_place = layout.simplicial = layout.facets = complex.row_count;
   layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
   layout.simplices.resize(complex.row_count);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) layout.simplices[row] = SimplexId{row};
@@ -183,22 +195,42 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
                     std::span<const double> gradient_factor) {
   if (clusters.count == 0) return simplicial_layout(complex);
   const std::size_t rank = complex.rank;
-  const RowKinds kinds = find_kinds(complex, clusters);
   const ClusterPlaces places = find_places(clusters);
   FacetLayout layout;
-  layout.regular = kinds.count[kRegular];
-  layout.simplicial = layout.regular + kinds.count[kBeside];
+  layout.simplicial = complex.row_count - places.merged_rows;
   layout.facets = layout.simplicial + clusters.count;
-  const std::vector<std::uint32_t> old_of_new = row_order(kinds);
-  list_simplices(clusters, places, old_of_new, layout);
+  std::vector<std::uint32_t> old_of_new;
+  if (places.merged_rows < layout.simplicial) {
+    const RowKinds kinds = find_kinds(complex, clusters);
+    layout.regular = kinds.count[kRegular];
+    layout.in_place = layout.simplicial;
+    old_of_new = row_order(kinds);
+  }
+  if (old_of_new.empty()) {
+    list_simplices(
+        clusters, places, [](std::uint32_t row) { return row; }, layout);
+  } else {
+    list_simplices(
+        clusters, places, [&](std::uint32_t row) { return old_of_new[row]; }, layout);
+  }
   const ScaledFactor scaled = scale_factor(gradient_factor);
   layout.surface_exponent = scaled.exponent;
   MergedSums sums = sum_merged(complex, determinants, clusters, places, scaled.factor);
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
-  const std::span<const std::uint32_t> alone = std::span(old_of_new).first(layout.simplicial);
-  take_rows({complex.planes.data(), complex.row_count * rank}, rank, alone);
-  take_rows(determinants, 1, alone);
+  const std::span<const SimplexId> alone = std::span(layout.simplices).first(layout.simplicial);
+  if (old_of_new.empty()) {
+    // Ascending, so that each row is read before it is written to.
+    for (std::size_t facet = 0; facet < alone.size(); ++facet) {
+      const std::size_t row = alone[facet].value;
+      std::copy_n(complex.planes.data() + row * rank, rank, complex.planes.data() + facet * rank);
+      determinants[facet] = determinants[row];
+    }
+  } else {
+    const auto rows = std::span<const std::uint32_t>(old_of_new).first(layout.simplicial);
+    take_rows({complex.planes.data(), complex.row_count * rank}, rank, rows);
+    take_rows(determinants, 1, rows);
+  }
   // Merged facets are no more than their simplices: there is room.
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
@@ -206,7 +238,11 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     std::copy_n(clusters.planes.data() + std::size_t{places.cluster_at[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
-  permute_topology(complex, old_of_new, layout.facets);
+  if (old_of_new.empty()) {
+    complex.planes.discard_from(layout.facets * rank);
+  } else {
+    permute_topology(complex, old_of_new, layout.facets);
+  }
   return layout;
 }
 

@@ -20,16 +20,19 @@ struct FacetClusters {
 
 /// How the rows of a complex group into facets. What is simple needs no table:
 ///   [0, regular)            facet f is simplex f, and so are its neighbours
-///   [regular, simplicial)   facet f is simplex f; some neighbour is a merged facet
+///   [regular, simplicial)   facet f is one simplex, simplices[f]; some neighbour is a merged facet
 ///   [simplicial, facets)    merged facets: facet simplicial + m is the rows simplices[merged_begin[m]] up
 ///                           to, not including, simplices[merged_begin[m + 1]], ascending
+/// Either facets of one simplex are the rows with their numbers (in_place = simplicial), or rows stand
+/// anywhere and none is known by its number (in_place = regular = 0).
 struct FacetLayout {
   std::size_t regular = 0;
+  std::size_t in_place = 0;
   std::size_t simplicial = 0;
   std::size_t facets = 0;
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
   std::vector<SimplexId> simplices;         ///< facet by facet: 0, 1, 2 .. simplicial - 1, then the merged
-  std::vector<FacetId> facet_of_merged;     ///< of simplex simplicial + i
+  std::vector<FacetId> facet_of_others;     ///< of simplex in_place + i
   /// Merged facets x rank: the sum of determinant times plane over the simplices; as a covector of the frame
   /// it points along the facet's mean normal, and its product with a direction is a projected area.
   std::vector<double> area_vectors;
@@ -39,7 +42,7 @@ struct FacetLayout {
   int surface_exponent = 0;
 
   FacetId facet_of(SimplexId simplex) const {
-    return simplex.value < simplicial ? FacetId{simplex.value} : facet_of_merged[simplex.value - simplicial];
+    return simplex.value < in_place ? FacetId{simplex.value} : facet_of_others[simplex.value - in_place];
   }
   std::span<const SimplexId> simplices_of(FacetId facet) const {
     if (facet.value < simplicial) return {simplices.data() + facet.value, 1};
@@ -58,8 +61,9 @@ ScaledFactor scale_factor(std::span<const double> gradient_factor);
 /// The layout without merging.
 FacetLayout simplicial_layout(const SimplicialComplex& complex);
 
-/// Puts the rows of a compacted complex that are facets alone, and the determinants with them, in front;
-/// other rows move only to make room. Then row f of complex.planes becomes the plane of facet f,
+/// Where fewer than half of the rows of a compacted complex are in merged facets: puts the others, and the
+/// determinants with them, in front; rows of merged facets move only to make room. Else no row moves: hardly
+/// a facet is beside none that is merged. Then row f of complex.planes becomes the plane of facet f,
 /// determinants[f] the sum over its simplices; rows behind the facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge

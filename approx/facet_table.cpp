@@ -10,48 +10,57 @@
 #include "core/blocks.h"
 #include "core/furthest_points.h"
 #include "core/highest_dots.h"
+#include "core/id_rows.h"
 #include "core/plane_kernels.h"
 
 namespace ndhull {
 namespace {
 
-/// Smallest and largest product of each merged facet's normal with its simplices' vertices, or with those
-/// given.
-void merged_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
-                 const CertificatePoints& points, const double* normals, std::span<double> low,
-                 std::span<double> high) {
+/// Smallest and largest product of each normal, from facet layout.in_place on, with the vertices of the
+/// facet's simplices, or with those given; and how many are about the largest.
+void listed_facets_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+                        const CertificatePoints& points, const double* normals, std::span<double> low,
+                        std::span<double> high, std::span<std::uint32_t> close) {
   constexpr std::size_t kFacetsAtATime = 64, kAhead = 8;  // rows whose way from memory has begun
-  const std::size_t dimension = points.dimension;
-  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> last_facet_of_thread(
-      [&] { return std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone); });
-  const auto measure = [&](std::uint32_t facet, std::vector<std::uint32_t>& last_facet) {
-    double smallest = HUGE_VAL, largest = -HUGE_VAL;
-    const double* normal = normals + facet * dimension;
+  struct FacetListScratch {
+    std::vector<std::uint32_t> last_facet;  // per point: that met it
+    IdRows rows;                            // of the points, facet by facet
+  };
+  tbb::enumerable_thread_specific<FacetListScratch> scratch_of_thread([&] {
+    return FacetListScratch{std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone), IdRows()};
+  });
+  const SimplexId* const last = layout.simplices.data() + layout.simplices.size() - 1;
+  const auto list_vertices = [&](std::uint32_t facet, FacetListScratch& scratch) {
     const auto meet = [&](std::uint32_t id) {
-      if (last_facet[id] == facet) return;
-      last_facet[id] = facet;
-      const double* point = points.rows.data() + std::size_t{points.row_of_point[id]} * dimension;
-      double dot = 0.0;
-      for (std::size_t k = 0; k < dimension; ++k) dot += normal[k] * point[k];
-      smallest = std::min(smallest, dot);
-      largest = std::max(largest, dot);
+      if (scratch.last_facet[id] == facet) return;
+      scratch.last_facet[id] = facet;
+      scratch.rows.values.push_back(points.row_of_point[id]);
     };
     if (vertices != nullptr) {
-      for (const std::uint32_t id : vertices->row(facet - layout.simplicial)) meet(id);
+      for (const std::uint32_t id : vertices->row(facet - layout.in_place)) meet(id);
     } else {
       const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
-      for (std::size_t i = 0; i < simplices.size(); ++i) {
-        __builtin_prefetch(complex.vertices(simplices[std::min(i + kAhead, simplices.size() - 1)]).data());
-        for (const PointId id : complex.vertices(simplices[i])) meet(id.value);
+      for (const SimplexId& simplex : simplices) {
+        __builtin_prefetch(complex.vertices(std::min(&simplex + kAhead, last)[0]).data());
+        if (simplices.size() == 1) {
+          for (const PointId id : complex.vertices(simplex))
+            scratch.rows.values.push_back(points.row_of_point[id.value]);
+        } else {
+          for (const PointId id : complex.vertices(simplex)) meet(id.value);
+        }
       }
     }
-    low[facet] = smallest;
-    high[facet] = largest;
+    scratch.rows.begin.push_back(static_cast<std::uint32_t>(scratch.rows.values.size()));
   };
-  for_each_block(layout.facets - layout.simplicial, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t>& last_facet = last_facet_of_thread.local();
-    for (std::size_t merged = begin; merged < end; ++merged)
-      measure(static_cast<std::uint32_t>(layout.simplicial + merged), last_facet);
+  for_each_block(layout.facets - layout.in_place, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    FacetListScratch& scratch = scratch_of_thread.local();
+    scratch.rows.begin.assign(1, 0);
+    scratch.rows.values.clear();
+    const std::size_t first = layout.in_place + begin, count = end - begin;
+    for (std::size_t i = 0; i < count; ++i) list_vertices(static_cast<std::uint32_t>(first + i), scratch);
+    listed_dots(points.dimension, {normals + first * points.dimension, count * points.dimension}, points.rows,
+                scratch.rows, low.subspan(first, count), high.subspan(first, count),
+                close.subspan(begin, count));
   });
 }
 
@@ -118,12 +127,13 @@ class TableMaker {
   FacetTable run() {
     drop_rounding(complex_, layout_);
     allocate();
-    const bool has_merged = layout_.simplicial < count_;
-    if (has_merged || searches_many_points()) {
+    const bool has_listed = layout_.in_place < count_;
+    close_.resize(count_ - layout_.in_place);
+    if (has_listed || searches_many_points()) {
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
-      merged_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(), low(0, count_),
-                  high(0, count_));
+      listed_facets_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(), low(0, count_),
+                         high(0, count_), close_);
       if (searches_many_points()) search_many_points();
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
@@ -182,7 +192,7 @@ class TableMaker {
     const double* const planes =
         (frame_.rank == dimension_ ? table_.normals : complex_.planes).data() + begin * frame_.rank;
     to_input_.map(planes, end - begin, table_.normals.data() + begin * dimension_);
-    end = std::min(end, layout_.simplicial);
+    end = std::min(end, layout_.in_place);
     if (begin >= end) return;
     own_dots(complex_, begin, dimension_, normals(begin, end), points_.rows, points_.row_of_point,
              low(begin, end), high(begin, end));
@@ -194,17 +204,21 @@ class TableMaker {
     } else if (!known_.highest.empty()) {
       take_known(begin, end);
     } else if (groups_) {
-      const std::size_t simplicial = std::clamp(layout_.simplicial, begin, end);
-      search_groups(begin, simplicial, frame_.rank);
-      search_groups(simplicial, end, 0);
+      const std::size_t in_place = std::clamp(layout_.in_place, begin, end);
+      search_groups(begin, in_place, frame_.rank, {});
+      search_groups(in_place, end, 0,
+                    in_place == end ? std::span<const std::uint32_t>()
+                                    : std::span<const std::uint32_t>(close_).subspan(
+                                          in_place - layout_.in_place, end - in_place));
     }
     finish(begin, end, parts_[begin / kFacetsInBlock]);
   }
 
   /// `own_count`: vertices of each facet; 0: they differ.
-  void search_groups(std::size_t begin, std::size_t end, std::size_t own_count) {
+  void search_groups(std::size_t begin, std::size_t end, std::size_t own_count,
+                     std::span<const std::uint32_t> close) {
     if (begin == end) return;
-    highest_dots(*groups_, normals(begin, end), {low(begin, end), high(begin, end), own_count},
+    highest_dots(*groups_, normals(begin, end), {low(begin, end), high(begin, end), own_count, close},
                  highest(begin, end));
   }
 
@@ -313,18 +327,21 @@ class TableMaker {
   /// Areas of the merged facets: of the projection of their simplices onto their plane. A simplex that faces
   /// the other way is taken off, and of a wide facet most may: nothing is left then.
   void project_areas(double area_per_determinant) {
-    const std::size_t count = count_ - layout_.simplicial;
-    std::vector<double> directions(count * dimension_), lengths(count);
-    to_input_.map(layout_.area_vectors.data(), count, directions.data(), lengths.data());
-    for (std::size_t m = 0; m < count; ++m) {
-      const std::size_t facet = layout_.simplicial + m;
-      const std::span<const double> normal = normals(facet, facet + 1);
-      double cosine = 0.0;
-      for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[m * dimension_ + k] * normal[k];
-      // A facet of simplices without volume has no direction either.
-      table_.areas[facet] = std::isfinite(cosine) && cosine > 0.0
-                                ? to_input_size(lengths[m] * cosine * area_per_determinant)
-                                : 0.0;
+    constexpr std::size_t kAtATime = 1024;
+    std::vector<double> directions(kAtATime * dimension_), lengths(kAtATime);
+    for (std::size_t first = layout_.simplicial; first < count_; first += kAtATime) {
+      const std::size_t count = std::min(kAtATime, count_ - first);
+      to_input_.map(layout_.area_vectors.data() + (first - layout_.simplicial) * frame_.rank, count,
+                    directions.data(), lengths.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::span<const double> normal = normals(first + i, first + i + 1);
+        double cosine = 0.0;
+        for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[i * dimension_ + k] * normal[k];
+        // A facet of simplices without volume has no direction either.
+        table_.areas[first + i] = std::isfinite(cosine) && cosine > 0.0
+                                      ? to_input_size(lengths[i] * cosine * area_per_determinant)
+                                      : 0.0;
+      }
     }
   }
 
@@ -345,6 +362,7 @@ class TableMaker {
   int volume_exponent_ = 0;
   double first_power_ = 1.0, second_power_ = 1.0;  // their product is 2^volume_exponent_
   std::optional<PointGroups> groups_;
+  std::vector<std::uint32_t> close_;  // of facets in_place and on: own vertices about as high as the highest
   std::vector<FacetSums> parts_;
   FacetTable table_;
 };

@@ -91,6 +91,7 @@ class HullBuilder {
     KnownHighest known = growth_->take_known_highest();
     for (const RowMove& move : compact(complex())) {
       if (!clusters_.cluster_of.empty()) clusters_.cluster_of[move.to] = clusters_.cluster_of[move.from];
+      if (determinants_.data() != nullptr) determinants_[move.to] = determinants_[move.from];
       if (known.highest.empty()) continue;
       known.highest[move.to] = known.highest[move.from];
       std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
@@ -143,22 +144,16 @@ class HullBuilder {
                                 has_run_out_before_);
     clusters_ = approximation.run();
     star_hull_ = std::move(approximation.star_hull());
+    determinants_ = approximation.take_determinants();
     seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
     return hull_.status != HullStatus::kMemoryLimit || has_run_out_before_ ||
            !approximation.may_do_without_complex();
   }
 
   void merge() {
-    const Clock::time_point start = Clock::now();
-    determinants_ = HugeArray<double>(complex().row_count);
-    const std::span<double> determinants(determinants_.data(), complex().row_count);
     const std::vector<std::uint8_t> is_shifted = find_shifted(growth_->work());
-    if (frame_.rank >= 2) {
-      solve_outwards(complex(), growth_->coordinates(), is_shifted, determinants);
-    } else {
-      for (std::size_t row = 0; row < 2; ++row) determinants[row] = std::abs(1.0 / complex().planes[row]);
-    }
-    detail("volumes", start);
+    if (determinants_.data() == nullptr) find_determinants(is_shifted);
+    const std::span<double> determinants(determinants_.data(), complex().row_count);
     const Clock::time_point merge_start = Clock::now();
     hull_.is_approximate = clusters_.count > 0;
     // Without a shifted point every decision was clearer than the shift: all ridges are convex. Who asks for
@@ -173,10 +168,21 @@ class HullBuilder {
     detail("coplanar merging", merge_start);
   }
 
+  void find_determinants(std::span<const std::uint8_t> is_shifted) {
+    const Clock::time_point start = Clock::now();
+    const std::size_t rows = complex().row_count;
+    determinants_ = HugeArray<double>(rows);
+    if (frame_.rank >= 2)
+      solve_outwards(complex(), growth_->coordinates(), is_shifted, {determinants_.data(), rows});
+    for (std::size_t row = 0; row < rows && frame_.rank == 1; ++row)
+      determinants_[row] = std::abs(1.0 / complex().planes[row]);
+    detail("volumes", start);
+  }
+
   /// Fewer facets than the exact ones, if fewer were asked for.
   void choose_for_volume(std::span<const double> determinants) {
-    check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
     constexpr double kShare = 0.6;  // of the limit; simplices and the facet table come after it
+    check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
     const WorkEnd end(kShare * options_.limits.max_seconds, options_.stop, start_);
     std::optional<VolumeCover> few =
         cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
@@ -312,11 +318,10 @@ class HullBuilder {
       vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
     }
     points.begin = vertices.begin;
-    const double surface = facets.surface;
+    hull_.layout_.merged_surface = facets.surface;
     facets = RowFacets();  // before the table is made
     hull_.is_approximate = true;
     hull_.layout_.facets = count;
-    hull_.layout_.merged_surface = surface;
     hull_.layout_.surface_exponent = found.surface_exponent;
     certify_facets(KnownHighest(), &points);
     hull_.layout_.simplicial = static_cast<std::size_t>(merged - order.begin());
@@ -333,9 +338,8 @@ class HullBuilder {
     const Clock::time_point start = Clock::now();
     // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
     is_vertex_ = hull_.is_approximate ? corners() : find_vertices(complex(), hull_.layout_, points_.rows);
-    for (std::uint32_t id = 0; id < points_.rows; ++id) {
+    for (std::uint32_t id = 0; id < points_.rows; ++id)
       if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
-    }
     growth_->choose_certificate_points(hull_.layout_.facets);
     const bool proves_nothing = is_roughly_flat(points_, frame_);
     if (proves_nothing) growth_->want_all();

@@ -71,7 +71,9 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
                                 std::size_t point_count) {
   // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
   // only are looked at.
-  std::vector<bool> is_vertex = find_corners(complex, 0, layout.simplicial, point_count);
+  std::vector<bool> is_vertex = find_corners(complex, 0, layout.in_place, point_count);
+  for (std::size_t facet = layout.in_place; facet < layout.simplicial; ++facet)
+    for (const PointId id : complex.vertices(layout.simplices[facet])) is_vertex[id.value] = true;
   std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
   for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {

@@ -27,12 +27,12 @@ std::span<const SimplexId> LaterSimplices::of(FacetId facet) const {
 FacetLayout LaterSimplices::layout(std::size_t simplicial) const {
   const std::vector<std::uint32_t>& begin = made().facet_begin;
   FacetLayout layout;
-  layout.simplicial = simplicial;
+  layout.in_place = layout.simplicial = simplicial;
   layout.facets = begin.size() - 1;
   layout.merged_begin.assign(begin.begin() + static_cast<std::ptrdiff_t>(simplicial), begin.end());
   layout.simplices = own_ids_;
   for (std::size_t facet = simplicial; facet < layout.facets; ++facet)
-    layout.facet_of_merged.insert(layout.facet_of_merged.end(), begin[facet + 1] - begin[facet],
+    layout.facet_of_others.insert(layout.facet_of_others.end(), begin[facet + 1] - begin[facet],
                                   FacetId{static_cast<std::uint32_t>(facet)});
   return layout;
 }

@@ -9,7 +9,9 @@
 #include <array>
 #include <cmath>
 
-#include "approx/gradient_length.h"
+#include "approx/seed_planes.h"
+#include "approx/thin_slabs.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
 
@@ -21,6 +23,8 @@ constexpr std::size_t kSamples = 64;
 /// Of so few simplices, or from so large slabs on, a choice among overlapping ones takes no longer than
 /// growth, and a tenth to a third of the facets off.
 constexpr double kFewSimplices = 65'536.0, kLargeSlabs = 800.0;
+/// Below this mean slabs are found from the stars of all simplices (approx/thin_slabs.h).
+constexpr double kThinSlabs = 16.0;
 /// Parts of that mean which a slab has to hold to be kept, pass by pass, before any is; of hulls that are
 /// small as well the larger ones, whose passes take 5 % off the facets and twice the time.
 constexpr std::array<double, 3> kWorthKeeping{0.6, 0.3, 0.1};
@@ -28,10 +32,11 @@ constexpr double kWorthKeepingOnce = 0.2;
 constexpr std::size_t kSmallHull = 16'384;  // simplices
 /// Of a slab that is given up so many of the simplices, those nearest to its seed, are no seeds either.
 constexpr double kNoSeeds = 0.5;
+constexpr std::size_t kPlacesInBlock = 1 << 13;
 /// Classes of seeds by their planes' distance from the centre.
 constexpr std::size_t kClasses = 64;
 /// Rows whose way from memory has begun.
-constexpr std::size_t kAhead = 4, kSeedsAhead = 8;
+constexpr std::size_t kAhead = 4, kSeedsAhead = 8, kPlanesAhead = 3;
 
 template <std::size_t D>
 class Partitioner {
@@ -39,28 +44,52 @@ class Partitioner {
   Partitioner(const SimplicialComplex& complex, const WidthSpace& space, const double* coordinates,
               std::span<const double> factor, PointsAbove above, double width)
       : complex_(complex),
-        space_(space),
         coordinates_(coordinates),
-        length_of_(factor),
-        tops_(space, above),
-        above_(above),
-        width_(width),
+        planes_(complex, space, factor, above, width),
         dots_(space.point_count()) {
     facets_.complex = &complex;
     facets_.simplices = HugeArray<SimplexPlace>(complex.row_count);
-    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-      SimplexPlace& place = facets_.simplices[row];
-      place.facet = kNone;
-      if (!is_live(row)) continue;
-      ++live_count_;
-      for (std::size_t k = 0; k < D; ++k) place.mix ^= row_of(row)[k];
-    }
-    facets_.members.resize(live_count_ + D);
+    for_each_block(complex.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
+      for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+        SimplexPlace& place = facets_.simplices[row];
+        place.facet = kNone;
+        if (!is_live(row)) continue;
+        for (std::size_t k = 0; k < D; ++k) place.mix ^= row_of(row)[k];
+      }
+    });
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
+    members_ = HugeArray<std::uint32_t>(live_count_ + D);
   }
 
-  std::optional<DualFacets> run() {
-    const double mean = mean_size();
-    if (is_worth_choosing(mean)) return std::nullopt;
+  /// How many simplices slabs hold where nothing is taken. Where they are large a few tell.
+  double mean_size() {
+    constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
+    std::size_t sum = 0, slabs = 0;
+    for (std::size_t i = 0; i < kSamples && 2 * sum < live_count_; ++i) {
+      const std::size_t place = 2 * (i * kStep % kSamples) + 1;
+      const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
+      if (!is_live(row)) continue;
+      ++slabs;
+      SeedPlane<D> own = planes_.own(row);
+      if (!planes_.raise_above_points(row, own)) continue;
+      grow(row, own, 0);
+      sum += count_;
+      give_back({0, 0});
+    }
+    return slabs > 0 ? static_cast<double>(sum) / static_cast<double>(slabs) : 1.0;
+  }
+
+  /// Are slabs so large that it is worth growing overlapping ones, and choosing a few of them?
+  bool is_worth_choosing(double mean) const {
+    const auto all = static_cast<double>(live_count_);
+    return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
+  }
+
+  /// All simplices, each in no facet yet.
+  DualFacets take_places() { return std::move(facets_); }
+
+  /// `mean`: mean_size().
+  DualFacets run(double mean) {
     std::vector<std::uint32_t> seeds = seeds_by_distance();
     const auto keep_parts = [&](double part) {
       const auto least = static_cast<std::size_t>(part * mean);
@@ -74,7 +103,7 @@ class Partitioner {
     keep_slabs(seeds, 1);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
-    facets_.members.resize(count_);
+    facets_.members.assign(members_.data(), members_.data() + count_);
     facets_.vertices.resize(vertex_count_);
     return std::move(facets_);
   }
@@ -90,11 +119,6 @@ class Partitioner {
   struct Ends {
     std::size_t members, vertices;
   };
-  struct SeedPlane {
-    std::array<double, D> plane;
-    double top, length, least;  // least: what vertices' products are at least
-    bool is_fitted = false;
-  };
 
   bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
   const std::uint32_t* row_of(std::uint32_t row) const {
@@ -104,46 +128,11 @@ class Partitioner {
     return dot_in_frame<D>(plane.data(), coordinates_ + std::size_t{point} * D);
   }
 
-  SeedPlane own_plane(std::uint32_t seed) const {
-    SeedPlane own;
-    std::copy_n(complex_.planes.data() + std::size_t{seed} * D, D, own.plane.data());
-    own.length = length_of_(own.plane.data());
-    own.top = 1.0;
-    own.least = 1.0 - width_ * own.length;
-    return own;
-  }
-
-  /// False: no plane was found that the seed is less than the width below.
-  bool raise_above_points(std::uint32_t seed, SeedPlane& own) {
-    if (above_ == PointsAbove::kNoPoint) return true;
-    own.top = tops_.of_simplex(own.plane.data(), own.length);
-    own.least = own.top - width_ * own.length;
-    return own.least <= 1.0 || fit_plane(seed, own);
-  }
-
-  /// Turns the plane of a seed that points are too far above.
-  bool fit_plane(std::uint32_t seed, SeedPlane& own) {
-    constexpr unsigned kSteps = 48;
-    std::array<std::uint32_t, D> vertices;
-    for (std::size_t k = 0; k < D; ++k) vertices[k] = space_.row_of(PointId{row_of(seed)[k]});
-    std::vector<double> normal(D);
-    space_.normal_of(own.plane, normal.data());
-    const FittedPlane start = measure_plane(space_, normal, vertices, fit_);
-    const FittedPlane fitted = narrow_plane(space_, start, vertices, kSteps, fit_);
-    if (fitted.width() > width_) return false;
-    space_.plane_of(fitted.normal.data(), fitted.height, own.plane.data());
-    own.length = length_of_(own.plane.data());
-    own.top = 1.0;
-    own.least = 1.0 - width_ * own.length;
-    own.is_fitted = true;
-    return true;
-  }
-
   /// Appends the simplices of a slab, `own` being its plane: those that are in none yet and connected to the
   /// seed.
-  void grow(std::uint32_t seed, const SeedPlane& own, std::uint32_t facet) {
+  void grow(std::uint32_t seed, const SeedPlane<D>& own, std::uint32_t facet) {
     SimplexPlace* const places = facets_.simplices.data();
-    std::uint32_t* const members = facets_.members.data();
+    std::uint32_t* const members = members_.data();
     const std::uint32_t slab = ++slab_;
     std::size_t next = count_;
     members[count_++] = seed;
@@ -194,12 +183,13 @@ class Partitioner {
   }
 
   void give_back(Ends begin) {
-    for (std::size_t i = begin.members; i < count_; ++i) facets_.simplices[facets_.members[i]].facet = kNone;
+    for (std::size_t i = begin.members; i < count_; ++i) facets_.simplices[members_[i]].facet = kNone;
     count_ = begin.members;
     vertex_count_ = begin.vertices;
   }
 
-  void add_facet(Ends begin, const SeedPlane& own) {
+  void add_facet(Ends begin, const SeedPlane<D>& own) {
+    facets_.seeds.push_back(members_[begin.members]);
     facets_.begin.push_back(static_cast<std::uint32_t>(begin.members));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(begin.vertices));
     if (count_ - begin.members == 1) vertex_count_ = begin.vertices;
@@ -211,37 +201,18 @@ class Partitioner {
     facets_.lengths.push_back(static_cast<float>(own.length));
   }
 
-  /// How many simplices slabs hold where nothing is taken. Where they are large a few tell.
-  double mean_size() {
-    constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
-    std::size_t sum = 0, slabs = 0;
-    for (std::size_t i = 0; i < kSamples && 2 * sum < live_count_; ++i) {
-      const std::size_t place = 2 * (i * kStep % kSamples) + 1;
-      const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
-      if (!is_live(row)) continue;
-      ++slabs;
-      SeedPlane own = own_plane(row);
-      if (!raise_above_points(row, own)) continue;
-      grow(row, own, 0);
-      sum += count_;
-      give_back({0, 0});
-    }
-    return slabs > 0 ? static_cast<double>(sum) / static_cast<double>(slabs) : 1.0;
-  }
-
-  /// Are slabs so large that it is worth growing overlapping ones, and choosing a few of them?
-  bool is_worth_choosing(double mean) const {
-    const auto all = static_cast<double>(live_count_);
-    return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
-  }
-
   /// Live rows, those whose planes are nearest to the centre first.
   std::vector<std::uint32_t> seeds_by_distance() const {
     std::vector<float> distances(complex_.row_count);
+    for_each_block(complex_.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        if (is_live(static_cast<std::uint32_t>(row)))
+          distances[row] = static_cast<float>(1.0 / planes_.length_of(complex_.planes.data() + row * D));
+      }
+    });
     float nearest = HUGE_VALF, furthest = 0.0f;
     for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
       if (!is_live(row)) continue;
-      distances[row] = static_cast<float>(1.0 / length_of_(complex_.planes.data() + std::size_t{row} * D));
       nearest = std::min(nearest, distances[row]);
       furthest = std::max(furthest, distances[row]);
     }
@@ -268,6 +239,13 @@ class Partitioner {
     std::size_t left = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       __builtin_prefetch(facets_.simplices.data() + seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
+      const std::uint32_t soon = seeds[std::min(i + kPlanesAhead, seeds.size() - 1)];
+      if (facets_.simplices[soon].facet == kNone) {
+        __builtin_prefetch(complex_.planes.data() + std::size_t{soon} * D);
+        __builtin_prefetch(complex_.planes.data() + std::size_t{soon} * D + D - 1);
+        __builtin_prefetch(row_of(soon));
+        __builtin_prefetch(row_of(soon) + 2 * D - 1);
+      }
       const std::uint32_t seed = seeds[i];
       if (facets_.simplices[seed].facet != kNone) continue;
       if (least > 1 && no_seed_[seed] == pass_) {
@@ -275,13 +253,13 @@ class Partitioner {
         continue;
       }
       const Ends begin{count_, vertex_count_};
-      SeedPlane own = own_plane(seed);
+      SeedPlane<D> own = planes_.own(seed);
       const auto facet = static_cast<std::uint32_t>(facets_.count());
-      const bool fits = raise_above_points(seed, own);
+      const bool fits = planes_.raise_above_points(seed, own);
       if (fits) {
         grow(seed, own, facet);
       } else {
-        facets_.members[count_++] = seed;
+        members_[count_++] = seed;
         facets_.simplices[seed].facet = facet;
       }
       const std::size_t size = count_ - begin.members;
@@ -292,7 +270,7 @@ class Partitioner {
       }
       const auto near = begin.members + 1 + static_cast<std::size_t>(kNoSeeds * static_cast<double>(size));
       for (std::size_t member = begin.members; member < std::min(near, count_); ++member)
-        no_seed_[facets_.members[member]] = pass_;
+        no_seed_[members_[member]] = pass_;
       give_back(begin);
       seeds[left++] = seed;
     }
@@ -300,29 +278,46 @@ class Partitioner {
   }
 
   const SimplicialComplex& complex_;
-  const WidthSpace& space_;
   const double* coordinates_;
-  GradientLength<D> length_of_;
-  PlaneTops tops_;
-  PointsAbove above_;
-  PlaneFitWork fit_;
-  double width_;
+  SeedPlanes<D> planes_;
   std::vector<Dot> dots_;  // per point
   std::uint32_t slab_ = 0;
+  HugeArray<std::uint32_t> members_;   // as far as they are listed: count_
   std::vector<std::uint8_t> no_seed_;  // per row: the last pass that gave up a slab around it
   std::uint8_t pass_ = 0;
   std::size_t live_count_ = 0, count_ = 0, vertex_count_ = 0;
   DualFacets facets_;
 };
 
+/// Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
+template <std::size_t D>
+DualFacets run_beside(Partitioner<D>& partitioner, double mean, const FindDeterminants& find_determinants) {
+  if (!has_more_threads()) return partitioner.run(mean);
+  DualFacets facets;
+  for_each_block(2, 1, [&](std::size_t begin, std::size_t) {
+    if (begin == 0) {
+      facets = partitioner.run(mean);
+    } else {
+      run_alone([&](std::size_t, std::size_t) { find_determinants(); });
+    }
+  });
+  return facets;
+}
+
 }  // namespace
 
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
-                                               double width) {
-  return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) {
-    return Partitioner<d>(complex, space, coordinates, gradient_factor, above, width).run();
+                                               double width, const FindDeterminants& find_determinants) {
+  return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
+    Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
+    const double mean = partitioner.mean_size();
+    if (partitioner.is_worth_choosing(mean)) return std::nullopt;
+    if (!find_determinants) return partitioner.run(mean);
+    if (mean >= kThinSlabs) return run_beside(partitioner, mean, find_determinants);
+    return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants(),
+                                     partitioner.take_places());
   });
 }
 

@@ -2,6 +2,7 @@
 // plane that no point is above.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -11,8 +12,13 @@
 
 namespace ndhull {
 
+/// The determinants of all rows (solve_simplices), with signs that make volumes positive. Asked for where
+/// slabs are found from stars, and where there is a thread for it. None: not where a point was shifted.
+using FindDeterminants = std::function<std::span<const double>()>;
+
 /// Each live simplex is in one facet, whose simplices are connected. Nothing where slabs are so large that
-/// overlapping ones (approx/slab_cover.h) are worth their time.
+/// overlapping ones (approx/slab_cover.h) are worth their time. Vertices are listed unless slabs hold so few
+/// simplices that they were found from stars (approx/thin_slabs.h), which joining would hardly make fewer.
 ///
 /// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
@@ -22,6 +28,6 @@ namespace ndhull {
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
-                                               double width);
+                                               double width, const FindDeterminants& find_determinants);
 
 }  // namespace ndhull

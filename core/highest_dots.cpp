@@ -31,8 +31,8 @@ struct ScaledDirections {
   explicit ScaledDirections(std::size_t width) : normals(kCount * width) {}
 
   std::vector<float> normals;  // kCount x dimension
-  float doubtful[kCount];  // from here on a product in single precision may be as large as what is attained
-  bool own_are_close[kCount];  // all own vertices are so high that their products are among these
+  float doubtful[kCount];   // from here on a product in single precision may be as large as what is attained
+  std::size_t own[kCount];  // so many own vertices have products among these; 0: not known
 };
 
 // Roundings of the products in single precision, each at most 2^-24 of 1: of both factors, of the sums, and
@@ -40,8 +40,8 @@ struct ScaledDirections {
 inline float product_error(std::size_t dimension) { return static_cast<float>(dimension + 4) * 0x1p-24f; }
 
 template <std::size_t D, std::size_t kCount>
-HWY_INLINE void scale_direction(const PointGroups& points, const double* normal, double low, double high,
-                                ScaledDirections<D, kCount>& scaled, std::size_t at) {
+HWY_INLINE void scale_direction(const PointGroups& points, const double* normal, const OwnDots& own,
+                                std::size_t facet, ScaledDirections<D, kCount>& scaled, std::size_t at) {
   const std::size_t width = D > 0 ? D : points.dimension();
   const double* column_sizes = points.column_sizes().data();
   double size = 0.0;
@@ -50,8 +50,13 @@ HWY_INLINE void scale_direction(const PointGroups& points, const double* normal,
   for (std::size_t k = 0; k < width; ++k) {
     scaled.normals[at * width + k] = static_cast<float>(normal[k] * column_sizes[k] * factor);
   }
+  const double high = own.high[facet];
   scaled.doubtful[at] = static_cast<float>(high * factor) - 3.0f * product_error(width);
-  scaled.own_are_close[at] = (high - low) * factor <= double{product_error(width)};
+  if (!own.close.empty()) {  // |high| factor is at most 1
+    scaled.own[at] = own.close[facet];
+  } else {
+    scaled.own[at] = (high - own.low[facet]) * factor <= double{product_error(width)} ? own.count : 0;
+  }
 }
 
 alignas(64) constexpr std::uint32_t kFirstIds[PointGroups::kSize] = {0, 1, 2,  3,  4,  5,  6,  7,
@@ -148,7 +153,7 @@ void highest_dots_near(const PointGroups& points, std::span<const double> normal
     const std::size_t used = std::min(kBatch, largest.size() - first);
     for (std::size_t i = 0; i < used; ++i) {
       const std::size_t facet = first + i;
-      scale_direction(points, normals.data() + facet * width, own.low[facet], own.high[facet], directions, i);
+      scale_direction(points, normals.data() + facet * width, own, facet, directions, i);
     }
     for (std::size_t i = 0; i < used; ++i) {
       near_count[i] = list_near_groups<D>(points, directions.normals.data() + i * width,
@@ -158,8 +163,8 @@ void highest_dots_near(const PointGroups& points, std::span<const double> normal
       const std::size_t facet = first + i;
       const std::span<const std::uint32_t> groups(near.data() + i * row, near_count[i]);
       largest[facet] = own.high[facet];
-      if (directions.own_are_close[i] && count_doubtful<D>(points, directions.normals.data() + i * width,
-                                                           directions.doubtful[i], groups) == own.count) {
+      if (directions.own[i] > 0 && count_doubtful<D>(points, directions.normals.data() + i * width,
+                                                     directions.doubtful[i], groups) == directions.own[i]) {
         continue;  // the own vertices are, and no other point is
       }
       largest[facet] = largest_in_groups<D>(points, normals.data() + facet * width, groups, own.high[facet]);
@@ -185,8 +190,7 @@ void highest_dots_all(const PointGroups& points, std::span<const double> normals
     const std::size_t used = std::min(batch, largest.size() - first);
     for (std::size_t lane = 0; lane < batch; ++lane) {
       const std::size_t facet = first + std::min(lane, used - 1);
-      scale_direction(points, normals.data() + facet * width, own.low[facet], own.high[facet], directions,
-                      lane);
+      scale_direction(points, normals.data() + facet * width, own, facet, directions, lane);
       for (std::size_t k = 0; k < width; ++k)
         transposed[k * batch + lane] = directions.normals[lane * width + k];
     }
@@ -216,7 +220,8 @@ void highest_dots_all(const PointGroups& points, std::span<const double> normals
     for (std::size_t lane = 0; lane < used; ++lane) {
       const std::size_t facet = first + lane;
       largest[facet] = own.high[facet];
-      if (directions.own_are_close[lane] && points.point_count() - below_count[lane] == own.count) continue;
+      if (directions.own[lane] > 0 && points.point_count() - below_count[lane] == directions.own[lane])
+        continue;
       largest[facet] = largest_in_groups<D>(points, normals.data() + facet * width, all, own.high[facet]);
     }
   }
@@ -228,7 +233,7 @@ void highest_dots_of(const PointGroups& points, std::span<const double> normals,
   // On spheres, where a ball of 16 out of so many points is about as large as a facet.
   const bool balls_are_large =
       points.dimension() > 16 || points.point_count() >> (points.dimension() + 2) == 0;
-  if (balls_are_large && own.count > 0) {
+  if (balls_are_large && (own.count > 0 || !own.close.empty())) {
     highest_dots_all<D>(points, normals, own, largest);
   } else {
     highest_dots_near<D>(points, normals, own, largest);

@@ -53,10 +53,15 @@ class PointGroups {
   std::vector<float> scaled_rows_, centres_, radii_;
 };
 
+/// A part of the largest product: smaller than what products in single precision are off by.
+inline constexpr double kCloseProducts = 1e-9;
+
 /// What is known of the products of facets' normals with their own vertices.
 struct OwnDots {
   std::span<const double> low, high;  ///< smallest and largest, one a facet
   std::size_t count = 0;              ///< vertices that each of the facets has; 0: they differ
+  /// Where they differ: how many are within kCloseProducts of the largest, one a facet.
+  std::span<const std::uint32_t> close;
 };
 
 /// Largest dot product of each normal with any of the points.

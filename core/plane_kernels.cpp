@@ -15,6 +15,7 @@
 #include "core/block_elimination-inl.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/highest_dots.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -94,6 +95,41 @@ void own_dots_of(const SimplicialComplex& complex, std::size_t first, std::size_
     }
     low[row] = smallest;
     high[row] = largest;
+  }
+}
+
+// Four products at a time: each is a chain that waits for its last addition.
+template <std::size_t D>
+void listed_dots_of(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                    const IdRows& lists, std::span<double> low, std::span<double> high,
+                    std::span<std::uint32_t> close) {
+  constexpr std::size_t kTogether = 4;
+  const std::size_t width = D > 0 ? D : dimension;
+  std::vector<double> dots;
+  for (std::size_t row = 0; row < low.size(); ++row) {
+    const double* normal = normals.data() + row * width;
+    const std::span<const std::uint32_t> list = lists.row(row);
+    dots.resize(std::max(dots.size(), list.size() + kTogether));
+    for (std::size_t i = 0; i < list.size(); i += kTogether) {
+      const double* point[kTogether];
+      double dot[kTogether] = {};
+      for (std::size_t j = 0; j < kTogether; ++j)
+        point[j] = points.data() + std::size_t{list[std::min(i + j, list.size() - 1)]} * width;
+      for (std::size_t k = 0; k < width; ++k)
+        for (std::size_t j = 0; j < kTogether; ++j) dot[j] = __builtin_fma(normal[k], point[j][k], dot[j]);
+      for (std::size_t j = 0; j < kTogether; ++j) dots[i + j] = dot[j];
+    }
+    double smallest = HUGE_VAL, largest = -HUGE_VAL;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      smallest = std::min(smallest, dots[i]);
+      largest = std::max(largest, dots[i]);
+    }
+    const double least = largest - kCloseProducts * std::abs(largest);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) count += dots[i] >= least ? 1u : 0u;
+    low[row] = smallest;
+    high[row] = largest;
+    close[row] = count;
   }
 }
 
@@ -259,6 +295,14 @@ void own_dots_any(const SimplicialComplex& complex, std::size_t first, std::size
   });
 }
 
+void listed_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                     const IdRows& lists, std::span<double> low, std::span<double> high,
+                     std::span<std::uint32_t> close) {
+  if (dimension > kMaxRank) return listed_dots_of<0>(dimension, normals, points, lists, low, high, close);
+  call_with_dimension<1, kMaxRank>(
+      dimension, [&](auto d) { listed_dots_of<d>(dimension, normals, points, lists, low, high, close); });
+}
+
 void mark_flat_any(const SimplicialComplex& complex, const double* points, double tolerance,
                    std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
   call_with_dimension<2, kMaxRank>(
@@ -287,6 +331,12 @@ void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t d
               std::span<const double> normals, std::span<const double> points,
               std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high) {
   NDHULL_BEST_OF(own_dots_any)(complex, first, dimension, normals, points, row_of_point, low, high);
+}
+
+void listed_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                 const IdRows& lists, std::span<double> low, std::span<double> high,
+                 std::span<std::uint32_t> close) {
+  NDHULL_BEST_OF(listed_dots_any)(dimension, normals, points, lists, low, high, close);
 }
 
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,

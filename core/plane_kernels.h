@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/id_rows.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -29,6 +30,13 @@ void max_dots(std::size_t dimension, std::span<const double> normals, std::span<
 void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t dimension,
               std::span<const double> normals, std::span<const double> points,
               std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high);
+
+/// Smallest and largest dot product of each normal with the points in its row of `lists`: rows of `points`,
+/// at least one; and how many are within kCloseProducts (core/highest_dots.h) of the largest. Shapes and
+/// error as above.
+void listed_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
+                 const IdRows& lists, std::span<double> low, std::span<double> high,
+                 std::span<std::uint32_t> close);
 
 /// Marks both sides of the flat ridges of some simplices: those across which the opposite vertex of either
 /// side is less than `tolerance` (a gauge) below the other side's plane.

@@ -21,7 +21,7 @@ struct Slabs {
   }
   std::optional<DualFacets> partition(double width, PointsAbove above = PointsAbove::kNoPoint) const {
     return partition_into_slabs(sphere.work.complex, *sphere.space, sphere.coordinates.data(), factor, above,
-                                width);
+                                width, {});
   }
   void join(double width, std::size_t most, DualFacets& facets) const {
     join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count,
@@ -50,7 +50,7 @@ void expect_each_simplex_once(const GrownSphere& sphere, const DualFacets& facet
 
 void expect_connected(const GrownSphere& sphere, const DualFacets& facets) {
   for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
-    std::vector<std::uint32_t> met{facets.seed(facet)};
+    std::vector<std::uint32_t> met{facets.seeds[facet]};
     for (std::size_t i = 0; i < met.size(); ++i) {
       for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
         if (facets.simplices[neighbour.value].facet == facet &&

@@ -1,4 +1,6 @@
 #include "core/highest_dots.h"
+#include "core/id_rows.h"
+#include "core/plane_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,7 @@ void expect_all_products(const Products& products, std::size_t own_count) {
   const std::size_t dimension = products.dimension, facets = products.normals.size() / dimension;
   const std::size_t count = products.points.size() / dimension;
   std::vector<double> low, high, expected, largest(facets);
+  std::vector<std::uint32_t> close;
   for (std::size_t facet = 0; facet < facets; ++facet) {
     std::vector<double> dots;
     for (std::size_t row = 0; row < count; ++row) {
@@ -55,13 +58,20 @@ void expect_all_products(const Products& products, std::size_t own_count) {
     // What growth calls the vertices may be the second highest and below: the highest has to be found.
     const std::size_t first = facet % 2 == 0 ? 0 : std::min<std::size_t>(1, count - 1);
     high.push_back(dots[first]);
-    low.push_back(dots[std::min(first + std::max<std::size_t>(own_count, 1) - 1, count - 1)]);
+    const std::size_t last = std::min(first + std::max<std::size_t>(own_count, 1) - 1, count - 1);
+    low.push_back(dots[last]);
+    const double least = dots[first] - kCloseProducts * std::abs(dots[first]);
+    close.push_back(0);
+    for (std::size_t i = first; i <= last; ++i) close.back() += dots[i] >= least ? 1u : 0u;
   }
   for (const bool in_order : {false, true}) {
     const PointGroups groups(dimension, products.points, in_order);
     std::fill(largest.begin(), largest.end(), 0.0);
     highest_dots(groups, products.normals, {low, high, own_count}, largest);
     EXPECT_EQ(largest, expected) << "in order: " << in_order;
+    std::fill(largest.begin(), largest.end(), 0.0);
+    highest_dots(groups, products.normals, {low, high, 0, close}, largest);
+    EXPECT_EQ(largest, expected) << "own vertices counted, in order: " << in_order;
   }
 }
 
@@ -97,6 +107,41 @@ TEST(HighestDotsLaw, PointsAHairAboveThePlaneAreFound) {
       highest_dots(PointGroups(dimension, products.points, false), products.normals, {own, own, dimension},
                    largest);
       EXPECT_EQ(largest[0], 1.0 + hair);
+      const std::vector<std::uint32_t> close{static_cast<std::uint32_t>(dimension)};
+      highest_dots(PointGroups(dimension, products.points, false), products.normals, {own, own, 0, close},
+                   largest);
+      EXPECT_EQ(largest[0], 1.0 + hair);
+    }
+  }
+}
+
+TEST(ListedDotsLaw, SmallestAndLargestAreThoseOfTheList) {
+  for (const std::size_t dimension : {1u, 2u, 5u, 8u, 19u}) {
+    const std::size_t count = 60, facets = 25;
+    Products products = sphere(dimension, count, facets, 1.0);
+    std::copy_n(products.points.begin(), dimension,
+                products.points.begin() + static_cast<std::ptrdiff_t>(dimension));
+    IdRows lists;
+    std::mt19937_64 random(dimension);
+    for (std::size_t facet = 0; facet < facets; ++facet) {
+      for (std::size_t i = 0; i <= facet; ++i)
+        lists.values.push_back(static_cast<std::uint32_t>(random() % count));
+      if (facet == 3) lists.values.insert(lists.values.end(), {0u, 1u});
+      lists.begin.push_back(static_cast<std::uint32_t>(lists.values.size()));
+    }
+    std::vector<double> low(facets), high(facets);
+    std::vector<std::uint32_t> close(facets);
+    listed_dots(dimension, products.normals, products.points, lists, low, high, close);
+    for (std::size_t facet = 0; facet < facets; ++facet) {
+      std::vector<double> dots;
+      for (const std::uint32_t row : lists.row(facet))
+        dots.push_back(
+            fused_dot(&products.normals[facet * dimension], &products.points[row * dimension], dimension));
+      std::sort(dots.begin(), dots.end());
+      const double least = dots.back() - kCloseProducts * std::abs(dots.back());
+      EXPECT_EQ(low[facet], dots.front());
+      EXPECT_EQ(high[facet], dots.back());
+      EXPECT_EQ(close[facet], dots.end() - std::lower_bound(dots.begin(), dots.end(), least));
     }
   }
 }

@@ -1,0 +1,297 @@
+// Idea. Slabs that hold a handful of simplices are little more than a seed and those of its neighbours that
+// are less than the width below its plane: its star. Which those are is asked of all simplices first, in the
+// order of memory. Then the largest stars are taken first, as in a greedy set cover, and each grows on over
+// further neighbours. What is left has no star: two of them fit below a plane between theirs more often.
+//
+// Of neighbours i and j let a and b be the dual planes, v and w the vertices opposite their ridge. w lies
+// p = 1 - a.w below a. In the cone of i, w has the coordinates l with sum a.w, and l_v = -det j / det i; so v
+// lies q = 1 - b.v = p det i / det j below b, and b is not looked at. All planes (1 - u) a + u b pass through
+// the ridge; w is (1 - u) p below, v is u q: least at u = p / (p + q) = det j / (det i + det j), the plane
+// of the mean normal.
+#include "approx/thin_slabs.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "approx/seed_planes.h"
+#include "core/blocks.h"
+#include "core/dimension_switch.h"
+#include "core/ids.h"
+
+namespace ndhull {
+namespace {
+
+/// One bit a neighbour.
+using NeighbourBits = std::uint16_t;
+static_assert(8 * sizeof(NeighbourBits) >= kMaxRank);
+
+/// As std::popcount, which is a call where the instruction cannot be taken for granted.
+constexpr unsigned count_bits(NeighbourBits bits) {
+  unsigned sum = bits - ((bits >> 1) & 0x5555u);
+  sum = (sum & 0x3333u) + ((sum >> 2) & 0x3333u);
+  sum = (sum + (sum >> 4)) & 0x0f0fu;
+  return (sum + (sum >> 8)) & 0x1fu;
+}
+
+/// Rows whose way from memory has begun.
+constexpr std::size_t kRowsAhead = 8, kMembersAhead = 4;
+constexpr std::size_t kStarsInBlock = 1 << 13;
+
+template <std::size_t D>
+class ThinPartitioner {
+ public:
+  ThinPartitioner(const WidthSpace& space, const double* coordinates, std::span<const double> factor,
+                  PointsAbove above, double width, std::span<const double> determinants, DualFacets facets)
+      : complex_(*facets.complex),
+        coordinates_(coordinates),
+        determinants_(determinants),
+        planes_(complex_, space, factor, above, width),
+        width_(width),
+        row_count_(static_cast<std::uint32_t>(complex_.row_count)),
+        facets_(std::move(facets)),
+        fitting_(row_count_),
+        near_(row_count_),
+        is_taken_(row_count_),
+        dots_(space.point_count()) {
+    for (std::uint32_t row = 0; row < row_count_; ++row) is_taken_[row] = is_live(row) ? 0 : 1;
+  }
+
+  DualFacets run() {
+    find_stars();
+    constexpr unsigned kRank = D;
+    take_stars((3 * kRank + 3) / 4);
+    for (unsigned least = (kRank + 1) / 2; least > 0; --least) take_stars(least);
+    take_pairs();
+    take_others();
+    return std::move(facets_);
+  }
+
+ private:
+  /// Neighbours in a star from which on it is worth looking for more behind them.
+  static constexpr std::size_t kGrowsFrom = D / 2;
+
+  /// A product of the present slab's plane with a point.
+  struct Dot {
+    double value;
+    std::uint32_t slab = kNone;  // that it was computed for
+  };
+
+  bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
+  const std::uint32_t* row_of(std::uint32_t row) const {
+    return complex_.topology.data() + std::size_t{row} * 2 * D;
+  }
+  double dot(const double* plane, std::uint32_t point) const {
+    return dot_in_frame<D>(plane, coordinates_ + std::size_t{point} * D);
+  }
+  std::uint32_t vertex_across(std::uint32_t row, std::size_t k) const {
+    const std::uint32_t* const vertices = row_of(row);
+    return facets_.simplices[row].mix ^ vertices[k] ^ facets_.simplices[vertices[D + k]].mix;
+  }
+
+  /// fitting_: neighbours that are less than the width below a row's own plane. near_: those that fit into a
+  /// slab with it. Points above are not looked at here: they leave less.
+  void find_stars() {
+    // Until facets are known the places hold determinants: they are read at random, with the mix.
+    SimplexPlace* const places = facets_.simplices.data();
+    for (std::uint32_t row = 0; row < row_count_; ++row)
+      places[row].facet = std::bit_cast<std::uint32_t>(static_cast<float>(determinants_[row]));
+    for_each_block(row_count_, kStarsInBlock, [&](std::size_t begin, std::size_t end) {
+      for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+        const std::uint32_t* const later =
+            row_of(std::min<std::uint32_t>(row + kRowsAhead, row_count_ - 1)) + D;
+        for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k]);
+        if (is_taken_[row] != 0) continue;
+        const double* const plane = complex_.planes.data() + std::size_t{row} * D;
+        const double room = width_ * planes_.length_of(plane);
+        const std::uint32_t* const vertices = row_of(row);
+        const auto own = std::bit_cast<float>(places[row].facet);
+        unsigned fitting = 0, near = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+          const SimplexPlace other = places[vertices[D + k]];
+          const double depth = 1.0 - dot(plane, places[row].mix ^ vertices[k] ^ other.mix);
+          const auto both = double{own} + double{std::bit_cast<float>(other.facet)};
+          fitting |= (depth <= room ? 1u : 0u) << k;
+          near |= (depth * double{own} <= room * both ? 1u : 0u) << k;
+        }
+        fitting_[row] = static_cast<NeighbourBits>(fitting);
+        near_[row] = static_cast<NeighbourBits>(near);
+      }
+    });
+    for (std::uint32_t row = 0; row < row_count_; ++row) places[row].facet = kNone;
+  }
+
+  /// Takes stars with so many neighbours that are in no other, as the rows stand. Stars that others have
+  /// taken too much of come again with a smaller `least`.
+  void take_stars(unsigned least) {
+    constexpr std::size_t kRowsAtATime = 1024;
+    std::array<std::uint32_t, kRowsAtATime + 1> rows;
+    for (std::uint32_t first = 0; first < row_count_; first += kRowsAtATime) {
+      const std::uint32_t last = std::min<std::uint32_t>(first + kRowsAtATime, row_count_);
+      std::size_t count = 0;
+      for (std::uint32_t row = first; row < last; ++row) {
+        rows[count] = row;
+        count += is_taken_[row] == 0 && count_bits(fitting_[row]) >= least ? 1u : 0u;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        __builtin_prefetch(row_of(rows[std::min(i + kRowsAhead, count - 1)]) + D);
+        take_star(rows[i], least);
+      }
+    }
+  }
+
+  void take_star(std::uint32_t row, unsigned least) {
+    if (is_taken_[row] != 0) return;
+    keep_open(row, fitting_[row]);
+    if (count_bits(fitting_[row]) < least) return;
+    std::optional<SeedPlane<D>> own;  // far away in memory: not read where bits say all
+    if (planes_.may_have_points_above()) {
+      own = planes_.own(row);
+      planes_.raise_top(*own);
+      keep_above(row, *own, fitting_[row]);
+      if (count_bits(fitting_[row]) < least) return;
+    }
+    const std::uint32_t facet = add_facet(row);
+    members_.clear();
+    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1)
+      take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))], facet);
+    if (members_.size() >= kGrowsFrom) grow(row, own ? *own : planes_.own(row), facet);
+  }
+
+  /// Of these neighbours those that are in no facet.
+  void keep_open(std::uint32_t row, NeighbourBits& bits) const {
+    unsigned open = 0;
+    for (unsigned left = bits; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      open |= (is_taken_[row_of(row)[D + k]] == 0 ? 1u : 0u) << k;
+    }
+    bits = static_cast<NeighbourBits>(open);
+  }
+
+  /// Of these neighbours those in the slab; none where the seed itself is not.
+  void keep_above(std::uint32_t row, const SeedPlane<D>& own, NeighbourBits& bits) const {
+    unsigned above = 0;
+    for (unsigned left = own.least <= 1.0 ? bits : 0u; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      above |= (dot(own.plane.data(), vertex_across(row, k)) >= own.least ? 1u : 0u) << k;
+    }
+    bits = static_cast<NeighbourBits>(above);
+  }
+
+  void take(std::uint32_t row, std::uint32_t facet) {
+    is_taken_[row] = 1;
+    facets_.simplices[row].facet = facet;
+    members_.push_back(row);
+    __builtin_prefetch(row_of(row));
+    __builtin_prefetch(row_of(row) + 2 * D - 1);
+  }
+
+  /// Takes what is in the slab behind the neighbours that were taken from a seed.
+  void grow(std::uint32_t seed, const SeedPlane<D>& own, std::uint32_t facet) {
+    const SimplexPlace* const places = facets_.simplices.data();
+    for (std::size_t k = 0; k < D; ++k) dots_[row_of(seed)[k]] = {HUGE_VAL, facet};
+    for (std::size_t next = 0; next < members_.size(); ++next) {
+      const std::uint32_t* const later =
+          row_of(members_[std::min(next + kMembersAhead, members_.size() - 1)]) + D;
+      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k], 1);
+      const std::uint32_t* const row = row_of(members_[next]);
+      const std::uint32_t mix = places[members_[next]].mix;
+      std::uint32_t open[D], across[D];
+      std::size_t count = 0;
+      for (std::size_t k = 0; k < D; ++k) {
+        const SimplexPlace neighbour = places[row[D + k]];
+        open[count] = row[D + k];
+        across[count] = mix ^ row[k] ^ neighbour.mix;
+        count += neighbour.facet == kNone ? 1u : 0u;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        Dot& known = dots_[across[i]];
+        if (known.slab != facet) known = {dot(own.plane.data(), across[i]), facet};
+        if (known.value >= own.least) take(open[i], facet);
+      }
+    }
+  }
+
+  /// Two simplices below a plane between theirs.
+  void take_pairs() {
+    for (std::uint32_t row = 0; row < row_count_; ++row) {
+      if (is_taken_[row] != 0) continue;
+      for (unsigned bits = near_[row]; bits != 0 && is_taken_[row] == 0; bits &= bits - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+        const std::uint32_t other = row_of(row)[D + k];
+        if (is_taken_[other] == 0) take_pair(row, k);
+      }
+    }
+  }
+
+  void take_pair(std::uint32_t row, std::size_t k) {
+    const std::uint32_t other = row_of(row)[D + k];
+    const double first = determinants_[row], last = determinants_[other], sum = first + last;
+    if (!(first > 0.0 && last > 0.0)) return;
+    const double* const a = complex_.planes.data() + std::size_t{row} * D;
+    const double* const b = complex_.planes.data() + std::size_t{other} * D;
+    std::array<double, D> mean;
+    for (std::size_t i = 0; i < D; ++i) mean[i] = (first * a[i] + last * b[i]) / sum;
+    SeedPlane<D> plane = planes_.below(mean, 1.0);
+    if (planes_.may_have_points_above()) planes_.raise_top(plane);
+    const double lowest =
+        std::min({1.0, dot(mean.data(), row_of(row)[k]), dot(mean.data(), vertex_across(row, k))});
+    if (lowest < plane.least) return;
+    take(other, add_facet(row, &plane.plane));
+  }
+
+  void take_others() {
+    for (std::uint32_t row = 0; row < row_count_; ++row) {
+      if (is_taken_[row] != 0) continue;
+      if (!planes_.may_have_points_above()) {
+        add_facet(row);
+        continue;
+      }
+      SeedPlane<D> own = planes_.own(row);
+      facets_.all_fit = planes_.raise_above_points(row, own) && facets_.all_fit;
+      add_facet(row, own.is_fitted ? &own.plane : nullptr);
+    }
+  }
+
+  /// None: the plane is the seed's.
+  std::uint32_t add_facet(std::uint32_t seed, const std::array<double, D>* plane = nullptr) {
+    const auto facet = static_cast<std::uint32_t>(facets_.count());
+    facets_.seeds.push_back(seed);
+    facets_.own_plane.push_back(plane == nullptr ? kNone
+                                                 : static_cast<std::uint32_t>(facets_.own_planes.size() / D));
+    if (plane != nullptr) facets_.own_planes.insert(facets_.own_planes.end(), plane->begin(), plane->end());
+    is_taken_[seed] = 1;
+    facets_.simplices[seed].facet = facet;
+    return facet;
+  }
+
+  const SimplicialComplex& complex_;
+  const double* coordinates_;
+  std::span<const double> determinants_;
+  SeedPlanes<D> planes_;
+  double width_;
+  std::uint32_t row_count_;
+  DualFacets facets_;
+  std::vector<NeighbourBits> fitting_, near_;  // per row
+  std::vector<std::uint8_t> is_taken_;         // per row: in a facet, or free
+  std::vector<Dot> dots_;                      // per point
+  std::vector<std::uint32_t> members_;         // of the facet that is being made, but for its seed
+};
+
+}  // namespace
+
+DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
+                                     std::span<const double> gradient_factor, PointsAbove above, double width,
+                                     std::span<const double> determinants, DualFacets facets) {
+  return call_with_dimension<2, kMaxRank>(facets.complex->rank, [&](auto d) {
+    return ThinPartitioner<d>(space, coordinates, gradient_factor, above, width, determinants,
+                              std::move(facets))
+        .run();
+  });
+}
+
+}  // namespace ndhull

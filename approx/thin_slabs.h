@@ -1,0 +1,29 @@
+// All simplices as disjoint slabs that hold a few of them each: found from what each simplex' own plane takes
+// of its neighbours, which is known for all of them before the first slab is chosen.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "approx/dual_facets.h"
+#include "approx/width_space.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
+///
+/// Shapes  facets: of `complex`, with each simplex' mix, and none in a facet. coordinates: points x rank, in
+///         the frame. gradient_factor: rank x rank. determinants: complex.row_count, solve_simplices' signs
+///         turned outwards.
+/// Above   not PointsAbove::kAny.
+/// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
+///           it, no plane may be found (all_fit tells).
+/// Cost      rank products and rank random reads of 8 bytes a simplex, by all threads; then some random reads
+///           for each. Where the hull is not convex, a product of a direction with all points left out for
+///           each slab tried.
+DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
+                                     std::span<const double> gradient_factor, PointsAbove above, double width,
+                                     std::span<const double> determinants, DualFacets facets);
+
+}  // namespace ndhull

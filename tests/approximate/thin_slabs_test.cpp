@@ -1,0 +1,205 @@
+// Slabs of a few simplices, seen from all points and vertices by plain loops.
+#include "approx/thin_slabs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "approx/exact_facets.h"
+#include "approx/slab_partition.h"
+#include "tests/approximate/grown_sphere.h"
+
+namespace ndhull {
+namespace {
+
+/// A sphere's simplices with their determinants, and calls that have the frame's coordinates for distances.
+struct ThinSlabs {
+  explicit ThinSlabs(const char* words)
+      : sphere(words, static_cast<std::uint32_t>(std::atoi(words))),
+        rank(sphere.work.rank),
+        factor(rank * rank, 0.0),
+        determinants(sphere.work.complex.row_count) {
+    for (std::size_t k = 0; k < rank; ++k) factor[k * rank + k] = 1.0;
+    solve_outwards(sphere.work.complex, sphere.coordinates.data(), {}, determinants);
+  }
+  DualFacets find(double width, const WidthSpace& space, PointsAbove above) const {
+    DualFacets places;
+    places.complex = &sphere.work.complex;
+    places.simplices = HugeArray<SimplexPlace>(sphere.work.complex.row_count);
+    for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
+      places.simplices[row].facet = kNone;
+      if (!sphere.is_live(row)) continue;
+      for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
+        places.simplices[row].mix ^= id.value;
+    }
+    return partition_into_thin_slabs(space, sphere.coordinates.data(), factor, above, width, determinants,
+                                     std::move(places));
+  }
+  DualFacets find(double width) const { return find(width, *sphere.space, PointsAbove::kNoPoint); }
+
+  GrownSphere sphere;
+  std::size_t rank;
+  std::vector<double> factor, determinants;
+};
+
+/// The simplices of each facet: all live ones, each in one, those of a facet connected.
+std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sphere, const DualFacets& facets) {
+  std::vector<std::vector<std::uint32_t>> members(facets.count());
+  for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
+    const std::uint32_t facet = facets.simplices[row].facet;
+    EXPECT_EQ(facet != kNone, sphere.is_live(row));
+    if (facet < members.size()) members[facet].push_back(row);
+  }
+  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    std::vector<std::uint32_t> met{facets.seeds[facet]};
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
+        if (facets.simplices[neighbour.value].facet == facet &&
+            std::find(met.begin(), met.end(), neighbour.value) == met.end())
+          met.push_back(neighbour.value);
+      }
+    }
+    std::sort(met.begin(), met.end());
+    EXPECT_EQ(met, members[facet]);
+  }
+  return members;
+}
+
+/// How thick the facets are below the highest of these points.
+std::vector<double> widths_of(const GrownSphere& sphere, const DualFacets& facets,
+                              const std::vector<double>& others) {
+  const std::size_t rank = sphere.work.rank;
+  std::vector<double> widths;
+  const std::vector<std::vector<std::uint32_t>> members = members_of(sphere, facets);
+  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    std::vector<double> normal(facets.plane(facet).begin(), facets.plane(facet).end());
+    double length_sq = 0.0, lowest = HUGE_VAL;
+    for (const double entry : normal) length_sq += entry * entry;
+    for (double& entry : normal) entry /= std::sqrt(length_sq);
+    double highest = sphere.height(normal);
+    for (std::size_t i = 0; i < others.size(); i += rank) {
+      double product = 0.0;
+      for (std::size_t k = 0; k < rank; ++k) product += normal[k] * others[i + k];
+      highest = std::max(highest, product);
+    }
+    for (const std::uint32_t row : members[facet])
+      for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
+        lowest = std::min(lowest, sphere.product(normal, id.value));
+    widths.push_back(highest - lowest);
+  }
+  return widths;
+}
+
+TEST(ThinSlabsLaw, EachSimplexIsInOneConnectedSlab) {
+  for (const char* words : {"60 s D2 t1", "200 s D3 t2", "400 s D5 t1", "120 s D7 t3", "60 s D9 t4"}) {
+    const ThinSlabs slabs(words);
+    std::size_t last = SIZE_MAX;
+    for (const double width : {1e-6, 0.003, 0.01, 0.05, 0.3}) {
+      SCOPED_TRACE(std::string(words) + ", width " + std::to_string(width));
+      const DualFacets facets = slabs.find(width);
+      EXPECT_TRUE(facets.all_fit);
+      for (const double found : widths_of(slabs.sphere, facets, {})) EXPECT_LE(found, width * (1.0 + 1e-9));
+      EXPECT_LE(facets.count(), last);
+      last = facets.count();
+    }
+  }
+}
+
+TEST(ThinSlabsLaw, SlabsOfOneSimplexHaveNoNeighbourToPairWith) {
+  const ThinSlabs slabs("120 s D7 t3");
+  const double width = 0.02;
+  const DualFacets facets = slabs.find(width);
+  const std::vector<std::vector<std::uint32_t>> members = members_of(slabs.sphere, facets);
+  const SimplicialComplex& complex = slabs.sphere.work.complex;
+  std::size_t alone = 0, pairs = 0;
+  for (const auto& rows : members) {
+    if (rows.size() == 2) ++pairs;
+    if (rows.size() != 1) continue;
+    ++alone;
+    for (const SimplexId other : complex.neighbours(SimplexId{rows[0]})) {
+      if (members[facets.simplices[other.value].facet].size() != 1) continue;
+      // All planes through their ridge, a hundredth of the way apart.
+      const auto a = complex.plane(SimplexId{rows[0]}), b = complex.plane(other);
+      double narrowest = HUGE_VAL;
+      for (int step = 0; step <= 100; ++step) {
+        std::vector<double> normal(slabs.rank);
+        double length_sq = 0.0, lowest = HUGE_VAL;
+        for (std::size_t k = 0; k < slabs.rank; ++k) {
+          normal[k] = (1.0 - 0.01 * step) * a[k] + 0.01 * step * b[k];
+          length_sq += normal[k] * normal[k];
+        }
+        for (const SimplexId simplex : {SimplexId{rows[0]}, other})
+          for (const PointId id : complex.vertices(simplex))
+            lowest = std::min(lowest, slabs.sphere.product(normal, id.value));
+        narrowest = std::min(narrowest, (1.0 - lowest) / std::sqrt(length_sq));
+      }
+      EXPECT_GT(narrowest, 0.98 * width);
+    }
+  }
+  EXPECT_GT(alone, 10u);
+  EXPECT_GT(pairs, 10u);
+}
+
+TEST(ThinSlabsLaw, PointsLeftOutAreBelowThePlanesToo) {
+  const ThinSlabs slabs("300 s D5 t4");
+  const GrownSphere& sphere = slabs.sphere;
+  const std::size_t count = sphere.work.point_count;
+  // Every tenth point again, somewhat further out.
+  std::vector<double> coordinates(
+      sphere.coordinates.begin(),
+      sphere.coordinates.begin() + static_cast<std::ptrdiff_t>(count * slabs.rank));
+  std::vector<PointId> vertices, others;
+  for (std::uint32_t id = 0; id < count; ++id) vertices.push_back(PointId{id});
+  for (std::size_t id = 0; id < count; id += 10) {
+    others.push_back(PointId{static_cast<std::uint32_t>(coordinates.size() / slabs.rank)});
+    for (std::size_t k = 0; k < slabs.rank; ++k)
+      coordinates.push_back(1.004 * coordinates[id * slabs.rank + k]);
+  }
+  const std::vector<double> outside(coordinates.begin() + static_cast<std::ptrdiff_t>(count * slabs.rank),
+                                    coordinates.end());
+  const WidthSpace space(slabs.rank, slabs.factor, coordinates.data(), coordinates.size() / slabs.rank,
+                         vertices, others);
+  const double width = 0.02;
+  const DualFacets known = slabs.find(width), facets = slabs.find(width, space, PointsAbove::kLeftOut);
+  EXPECT_TRUE(facets.all_fit);
+  for (const double found : widths_of(sphere, facets, outside)) EXPECT_LE(found, width * (1.0 + 1e-9));
+  EXPECT_GT(facets.count(), known.count());
+  EXPECT_FALSE(slabs.find(0.001, space, PointsAbove::kLeftOut).all_fit);
+}
+
+TEST(ThinSlabsExample, NeighboursOnACirclePairBelowALineBetweenTheirs) {
+  // Own lines alone: a neighbour's far end is deeper than the width. Between the two it is half as deep.
+  const ThinSlabs slabs("60 s D2 t5");
+  const double width = 0.75 * (1.0 - std::cos(2.0 * 3.14159265358979 / 60.0));
+  const DualFacets facets = slabs.find(width);
+  EXPECT_LT(facets.count(), 50u);
+  EXPECT_FALSE(facets.own_planes.empty());
+}
+
+TEST(ThinSlabsExample, ThePartitionAsksForThemWhereSlabsHoldFew) {
+  const ThinSlabs slabs("120 s D7 t3");
+  int asked = 0;
+  const FindDeterminants find = [&] {
+    ++asked;
+    return std::span<const double>(slabs.determinants);
+  };
+  const auto partition = [&](double width) {
+    return partition_into_slabs(slabs.sphere.work.complex, *slabs.sphere.space,
+                                slabs.sphere.coordinates.data(), slabs.factor, PointsAbove::kNoPoint, width,
+                                find);
+  };
+  const std::optional<DualFacets> thin = partition(0.01);
+  ASSERT_TRUE(thin);
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(thin->is_listed());
+  EXPECT_EQ(thin->count(), slabs.find(0.01).count());
+  const std::optional<DualFacets> wide = partition(0.2);
+  EXPECT_TRUE(!wide || wide->is_listed());
+}
+
+}  // namespace
+}  // namespace ndhull
