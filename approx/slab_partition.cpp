@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "approx/seed_planes.h"
-#include "approx/thin_slabs.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
@@ -289,21 +288,6 @@ class Partitioner {
   DualFacets facets_;
 };
 
-/// Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
-template <std::size_t D>
-DualFacets run_beside(Partitioner<D>& partitioner, double mean, const FindDeterminants& find_determinants) {
-  if (!has_more_threads()) return partitioner.run(mean);
-  DualFacets facets;
-  for_each_block(2, 1, [&](std::size_t begin, std::size_t) {
-    if (begin == 0) {
-      facets = partitioner.run(mean);
-    } else {
-      run_alone([&](std::size_t, std::size_t) { find_determinants(); });
-    }
-  });
-  return facets;
-}
-
 }  // namespace
 
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
@@ -314,10 +298,14 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
     const double mean = partitioner.mean_size();
     if (partitioner.is_worth_choosing(mean)) return std::nullopt;
-    if (!find_determinants) return partitioner.run(mean);
-    if (mean >= kThinSlabs) return run_beside(partitioner, mean, find_determinants);
-    return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants(),
-                                     partitioner.take_places());
+    if (find_determinants && mean < kThinSlabs)
+      return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
+                                       partitioner.take_places());
+    // Slabs are one thread's work: another one may find the determinants, which will be wanted anyway.
+    if (!find_determinants || !has_more_threads()) return partitioner.run(mean);
+    DualFacets facets;
+    do_beside([&] { facets = partitioner.run(mean); }, [&] { find_determinants(); });
+    return facets;
   });
 }
 

@@ -2,25 +2,23 @@
 // plane that no point is above.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 
 #include "approx/dual_facets.h"
+#include "approx/thin_slabs.h"
 #include "approx/width_space.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
 
-/// The determinants of all rows (solve_simplices), with signs that make volumes positive. Asked for where
-/// slabs are found from stars, and where there is a thread for it. None: not where a point was shifted.
-using FindDeterminants = std::function<std::span<const double>()>;
-
 /// Each live simplex is in one facet, whose simplices are connected. Nothing where slabs are so large that
 /// overlapping ones (approx/slab_cover.h) are worth their time. Vertices are listed unless slabs hold so few
 /// simplices that they were found from stars (approx/thin_slabs.h), which joining would hardly make fewer.
 ///
-/// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank.
+/// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank. find_determinants: asked
+///         for where slabs are found from stars, and where there is a thread for it. None: no stars are
+///         looked for; so where a point was shifted.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
 /// Cost      each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not

@@ -2,7 +2,7 @@
 // of its neighbours, which is known for all of them before the first slab is chosen.
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <span>
 
 #include "approx/dual_facets.h"
@@ -11,11 +11,13 @@
 
 namespace ndhull {
 
+/// The determinants of all rows of a complex (solve_simplices), with signs that make volumes positive.
+using FindDeterminants = std::function<std::span<const double>()>;
+
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
 ///
 /// Shapes  facets: of `complex`, with each simplex' mix, and none in a facet. coordinates: points x rank, in
-///         the frame. gradient_factor: rank x rank. determinants: complex.row_count, solve_simplices' signs
-///         turned outwards.
+///         the frame. gradient_factor: rank x rank. find_determinants: asked for once.
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
@@ -24,6 +26,6 @@ namespace ndhull {
 ///           each slab tried.
 DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
                                      std::span<const double> gradient_factor, PointsAbove above, double width,
-                                     std::span<const double> determinants, DualFacets facets);
+                                     const FindDeterminants& find_determinants, DualFacets facets);
 
 }  // namespace ndhull

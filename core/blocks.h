@@ -34,7 +34,27 @@ bool has_more_threads();
 /// at the same time where there are threads, otherwise one after the other. `size` is at least 1.
 void for_each_block(std::size_t count, std::size_t size, BlockWork work);
 
+/// Calls both, at the same time where there are threads; loops of `second` are not shared out then.
+template <class First, class Second>
+void do_beside(const First& first, const Second& second);
+
 /// Calls work(0, 1) with loops that are not shared out: for work that is one of many blocks itself.
 void run_alone(BlockWork work);
+
+template <class First, class Second>
+void do_beside(const First& first, const Second& second) {
+  if (!has_more_threads()) {
+    first();
+    second();
+    return;
+  }
+  for_each_block(2, 1, [&](std::size_t begin, std::size_t) {
+    if (begin == 0) {
+      first();
+    } else {
+      run_alone([&](std::size_t, std::size_t) { second(); });
+    }
+  });
+}
 
 }  // namespace ndhull

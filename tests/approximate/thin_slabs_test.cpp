@@ -36,8 +36,9 @@ struct ThinSlabs {
       for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
         places.simplices[row].mix ^= id.value;
     }
-    return partition_into_thin_slabs(space, sphere.coordinates.data(), factor, above, width, determinants,
-                                     std::move(places));
+    return partition_into_thin_slabs(
+        space, sphere.coordinates.data(), factor, above, width,
+        [this] { return std::span<const double>(determinants); }, std::move(places));
   }
   DualFacets find(double width) const { return find(width, *sphere.space, PointsAbove::kNoPoint); }
 
