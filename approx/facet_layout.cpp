@@ -223,6 +223,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     // Ascending, so that each row is read before it is written to.
     for (std::size_t facet = 0; facet < alone.size(); ++facet) {
       const std::size_t row = alone[facet].value;
+      if (row == facet) continue;
       std::copy_n(complex.planes.data() + row * rank, rank, complex.planes.data() + facet * rank);
       determinants[facet] = determinants[row];
     }

@@ -29,7 +29,6 @@ void listed_facets_dots(const SimplicialComplex& complex, const FacetLayout& lay
   tbb::enumerable_thread_specific<FacetListScratch> scratch_of_thread([&] {
     return FacetListScratch{std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone), IdRows()};
   });
-  const SimplexId* const last = layout.simplices.data() + layout.simplices.size() - 1;
   const auto list_vertices = [&](std::uint32_t facet, FacetListScratch& scratch) {
     const auto meet = [&](std::uint32_t id) {
       if (scratch.last_facet[id] == facet) return;
@@ -40,13 +39,15 @@ void listed_facets_dots(const SimplicialComplex& complex, const FacetLayout& lay
       for (const std::uint32_t id : vertices->row(facet - layout.in_place)) meet(id);
     } else {
       const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
-      for (const SimplexId& simplex : simplices) {
-        __builtin_prefetch(complex.vertices(std::min(&simplex + kAhead, last)[0]).data());
+      const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
+      for (std::size_t i = 0; i < simplices.size(); ++i) {
+        const std::size_t later = std::min(first + i + kAhead, layout.simplices.size() - 1);
+        __builtin_prefetch(complex.vertices(layout.simplices[later]).data());
         if (simplices.size() == 1) {
-          for (const PointId id : complex.vertices(simplex))
+          for (const PointId id : complex.vertices(simplices[i]))
             scratch.rows.values.push_back(points.row_of_point[id.value]);
         } else {
-          for (const PointId id : complex.vertices(simplex)) meet(id.value);
+          for (const PointId id : complex.vertices(simplices[i])) meet(id.value);
         }
       }
     }
