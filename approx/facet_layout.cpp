@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "approx/gradient_length.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
 
@@ -206,16 +207,19 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     layout.in_place = layout.simplicial;
     old_of_new = row_order(kinds);
   }
-  if (old_of_new.empty()) {
-    list_simplices(
-        clusters, places, [](std::uint32_t row) { return row; }, layout);
-  } else {
-    list_simplices(
-        clusters, places, [&](std::uint32_t row) { return old_of_new[row]; }, layout);
-  }
   const ScaledFactor scaled = scale_factor(gradient_factor);
   layout.surface_exponent = scaled.exponent;
-  MergedSums sums = sum_merged(complex, determinants, clusters, places, scaled.factor);
+  MergedSums sums;
+  const auto list = [&] {
+    if (old_of_new.empty()) {
+      list_simplices(
+          clusters, places, [](std::uint32_t row) { return row; }, layout);
+    } else {
+      list_simplices(
+          clusters, places, [&](std::uint32_t row) { return old_of_new[row]; }, layout);
+    }
+  };
+  do_beside(list, [&] { sums = sum_merged(complex, determinants, clusters, places, scaled.factor); });
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
   const std::span<const SimplexId> alone = std::span(layout.simplices).first(layout.simplicial);
