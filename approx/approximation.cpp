@@ -100,7 +100,9 @@ void Approximation::make_space(bool with_left_out) {
   const SimplicialComplex& complex = work.complex;
   std::vector<std::uint8_t> is_taken(work.point_count, 0);
   std::vector<PointId> vertices, others;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+  // A hull has no more of them than points were added: where all are still vertices, few rows name them.
+  const std::size_t most_vertices = work.counters.insertions + work.rank + 1;
+  for (std::uint32_t row = 0; row < complex.row_count && vertices.size() < most_vertices; ++row) {
     if (complex.state[row] != SimplexState::kLive) continue;
     for (const PointId id : complex.vertices(SimplexId{row})) {
       if (is_taken[id.value]) continue;

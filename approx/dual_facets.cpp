@@ -7,6 +7,7 @@
 
 #include "core/blocks.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 
@@ -90,10 +91,13 @@ FacetClusters clusters_of(const DualFacets& facets) {
     const bool is_cluster = cluster[facet] > 1 || facets.own_plane[facet] != kNone;
     cluster[facet] = is_cluster ? clusters.count++ : kNone;
   }
-  clusters.planes.resize(clusters.count * rank);
+  clusters.planes.reserve(clusters.count * rank);
+  constexpr std::size_t kAhead = 16;  // planes are anywhere in memory
   for (std::size_t facet = 0; facet < facets.count(); ++facet) {
+    prefetch(facets.plane(std::min(facet + kAhead, facets.count() - 1)).data(), rank);
     if (cluster[facet] == kNone) continue;
-    std::ranges::copy(facets.plane(facet), clusters.planes.data() + cluster[facet] * rank);
+    const std::span<const double> plane = facets.plane(facet);
+    clusters.planes.insert(clusters.planes.end(), plane.begin(), plane.end());
   }
   clusters.cluster_of.resize(rows);
   std::transform(places, places + rows, clusters.cluster_of.begin(), [&](const SimplexPlace& simplex) {

@@ -9,6 +9,7 @@
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -147,8 +148,7 @@ void sum_rows(const SimplicialComplex& complex, std::span<const double> determin
     const std::uint32_t later = clusters.cluster_of[std::min(row + kAhead, complex.row_count - 1)];
     if (later != kNone) {
       const double* const sum = sums.area_vectors.data() + std::size_t{places.place_of[later]} * D;
-      __builtin_prefetch(sum, 1);
-      __builtin_prefetch(sum + D - 1, 1);
+      prefetch(sum, D);
     }
     if (clusters.cluster_of[row] == kNone) continue;
     const std::size_t m = places.place_of[clusters.cluster_of[row]];

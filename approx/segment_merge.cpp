@@ -14,6 +14,7 @@
 #include "approx/gradient_length.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -64,12 +65,14 @@ class SegmentMerger {
         place_of_(facets.count(), 0),
         listed_(std::move(facets.vertices)),
         pass_of_(point_count, 0) {
+    constexpr std::size_t kAhead = 8;  // planes are anywhere in memory
     for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
       facets_[facet] = {.simplices = static_cast<std::uint32_t>(facets.size(facet)),
                         .first_vertex = facets.vertex_begin[facet],
                         .vertex_count = facets.vertex_begin[facet + 1] - facets.vertex_begin[facet],
                         .top = facets.tops[facet],
                         .room = width_ * double{facets.lengths[facet]}};
+      prefetch(facets.plane(std::min<std::size_t>(facet + kAhead, facets.count() - 1)).data(), D);
       std::copy_n(facets.plane(facet).data(), D, planes_.data() + std::size_t{facet} * D);
       last_[facet] = facet;
     }
@@ -79,7 +82,9 @@ class SegmentMerger {
     std::vector<std::uint32_t> small;
     for (auto facet = static_cast<std::uint32_t>(table_.count()); facet-- > 0;)
       if (facets_[facet].simplices <= most_simplices) small.push_back(facet);
-    for (const std::uint32_t facet : small) {
+    for (std::size_t i = 0; i < small.size(); ++i) {
+      fetch(small, i);
+      const std::uint32_t facet = small[i];
       if (facets_[facet].simplices > most_simplices) continue;  // others have joined it
       Fit fit;
       const std::uint32_t host = best_neighbour(facet, fit);
@@ -104,6 +109,21 @@ class SegmentMerger {
     std::uint32_t facet;
     Interval interval;
   };
+
+  /// Begins the way from memory of what the facets after this one are made of.
+  void fetch(std::span<const std::uint32_t> facets, std::size_t place) const {
+    if (place + 2 < facets.size()) {
+      const std::uint32_t later = facets[place + 2];
+      prefetch(plane_of(later), D);
+      for (const std::uint32_t row : table_.members_of(later)) {
+        prefetch(row_of(row), 2 * D);
+        prefetch(&table_.simplices[row]);
+      }
+    }
+    if (place + 1 == facets.size()) return;
+    for (const std::uint32_t row : table_.members_of(facets[place + 1]))
+      for (std::size_t k = 0; k < D; ++k) prefetch(&table_.simplices[row_of(row)[D + k]]);
+  }
 
   const std::uint32_t* row_of(std::uint32_t row) const {
     return complex_.topology.data() + std::size_t{row} * 2 * D;
@@ -159,9 +179,8 @@ class SegmentMerger {
           if (height < lowest) continue;
           place = static_cast<std::uint32_t>(neighbours_.size());
           neighbours_.push_back({neighbour.facet, Interval()});
-          __builtin_prefetch(&facets_[neighbour.facet]);
-          __builtin_prefetch(plane_of(neighbour.facet));
-          __builtin_prefetch(plane_of(neighbour.facet) + D - 1);
+          prefetch(&facets_[neighbour.facet]);
+          prefetch(plane_of(neighbour.facet), D);
         }
         ridges_.push_back({place, row[k], height});
       }

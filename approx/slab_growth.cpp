@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/dimension_switch.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -98,8 +99,7 @@ void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double w
     return rule_->wants(SimplexId{simplex}, sum / double{D}, scratch.compared, scratch.rule_fit);
   };
   const auto ask_for_row = [&](std::uint32_t simplex) {
-    __builtin_prefetch(topology + std::size_t{simplex} * 2 * D);
-    __builtin_prefetch(topology + std::size_t{simplex} * 2 * D + 2 * D - 1);
+    prefetch(topology + std::size_t{simplex} * 2 * D, 2 * D);
   };
   scratch.grown_count = 0;
   if (rule_ != nullptr) rule_->set_plane(SimplexId{seed}, plane, scratch.compared);
@@ -119,7 +119,7 @@ void SlabGrower::flood_in(std::uint32_t seed, const FittedPlane& plane, double w
     const std::uint32_t* const vertices = topology + std::size_t{grown[i]} * 2 * D;
     if (i + kAhead < count) {
       const std::uint32_t* later = topology + std::size_t{grown[i + kAhead]} * 2 * D;
-      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(met + later[D + k], 1);
+      for (std::size_t k = 0; k < D; ++k) prefetch(met + later[D + k]);
     }
     if (i + kFarAhead < count) ask_for_row(grown[i + kFarAhead]);
     const std::size_t known = count;

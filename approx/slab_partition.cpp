@@ -13,6 +13,7 @@
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -145,7 +146,7 @@ class Partitioner {
     for (; next < count_; ++next) {
       if (next + kAhead < count_) {
         const std::uint32_t* later = row_of(members[next + kAhead]) + D;
-        for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k], 1);
+        for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
       }
       const std::uint32_t* row = row_of(members[next]);
       const std::uint32_t mix = places[members[next]].mix;
@@ -167,8 +168,7 @@ class Partitioner {
         known.is_in_slab = is_taken ? 1u : 0u;  // one that is not taken now never is
         members[count_] = open[i];
         const std::uint32_t* asked = row_of(is_taken ? open[i] : members[next]);
-        __builtin_prefetch(asked);
-        __builtin_prefetch(asked + 2 * D - 1);
+        prefetch(asked, 2 * D);
         places[open[i]].facet = is_taken ? facet : kNone;
         count_ += is_taken ? 1u : 0u;
       }
@@ -237,13 +237,11 @@ class Partitioner {
     ++pass_;
     std::size_t left = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      __builtin_prefetch(facets_.simplices.data() + seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
+      prefetch(facets_.simplices.data() + seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
       const std::uint32_t soon = seeds[std::min(i + kPlanesAhead, seeds.size() - 1)];
       if (facets_.simplices[soon].facet == kNone) {
-        __builtin_prefetch(complex_.planes.data() + std::size_t{soon} * D);
-        __builtin_prefetch(complex_.planes.data() + std::size_t{soon} * D + D - 1);
-        __builtin_prefetch(row_of(soon));
-        __builtin_prefetch(row_of(soon) + 2 * D - 1);
+        prefetch(complex_.planes.data() + std::size_t{soon} * D, D);
+        prefetch(row_of(soon), 2 * D);
       }
       const std::uint32_t seed = seeds[i];
       if (facets_.simplices[seed].facet != kNone) continue;

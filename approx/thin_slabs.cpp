@@ -22,6 +22,7 @@
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -100,7 +101,7 @@ class ThinPartitioner {
       for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
         const std::uint32_t* const later =
             row_of(std::min<std::uint32_t>(row + kRowsAhead, row_count_ - 1)) + D;
-        for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k]);
+        for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
         if (is_taken_[row] != 0) continue;
         const double* const plane = plane_of(row);
         const double least = 1.0 - width_ * planes_.length_of(plane);
@@ -124,7 +125,7 @@ class ThinPartitioner {
   /// taken too much of come again with a smaller `least`.
   void take_stars(unsigned least) {
     for_each_open([&](std::uint32_t row) { return count_bits(fitting_[row]) >= least; },
-                  [&](std::uint32_t row) { __builtin_prefetch(row_of(row) + D); },
+                  [&](std::uint32_t row) { prefetch(row_of(row) + D, D); },
                   [&](std::uint32_t row) { take_star(row, least); });
   }
 
@@ -142,6 +143,7 @@ class ThinPartitioner {
         count += is_taken_[row] == 0 && is_wanted(row) ? 1u : 0u;
       }
       for (std::size_t i = 0; i < count; ++i) {
+        prefetch(row_of(rows[std::min(i + 2 * kRowsAhead, count - 1)]), 2 * D);
         fetch(rows[std::min(i + kRowsAhead, count - 1)]);
         if (is_taken_[rows[i]] == 0) visit(rows[i]);
       }
@@ -159,10 +161,14 @@ class ThinPartitioner {
       if (count_bits(fitting_[row]) < least) return;
     }
     const std::uint32_t facet = add_facet(row);
+    const bool grows = count_bits(fitting_[row]) >= kGrowsFrom;
     members_.clear();
-    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1)
-      take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))], facet);
-    if (members_.size() >= kGrowsFrom) grow(row, own ? *own : planes_.own(row), facet);
+    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1) {
+      const std::uint32_t other = row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))];
+      take(other, facet);
+      if (grows) add_member(other);
+    }
+    if (grows) grow(row, own ? *own : planes_.own(row), facet);
   }
 
   /// Of these neighbours those that are in no facet.
@@ -188,9 +194,11 @@ class ThinPartitioner {
   void take(std::uint32_t row, std::uint32_t facet) {
     is_taken_[row] = 1;
     facets_.simplices[row].facet = facet;
+  }
+  /// Neighbours of a member are looked at later.
+  void add_member(std::uint32_t row) {
     members_.push_back(row);
-    __builtin_prefetch(row_of(row));
-    __builtin_prefetch(row_of(row) + 2 * D - 1);
+    prefetch(row_of(row), 2 * D);
   }
 
   /// Takes what is in the slab behind the neighbours that were taken from a seed.
@@ -200,7 +208,7 @@ class ThinPartitioner {
     for (std::size_t next = 0; next < members_.size(); ++next) {
       const std::uint32_t* const later =
           row_of(members_[std::min(next + kMembersAhead, members_.size() - 1)]) + D;
-      for (std::size_t k = 0; k < D; ++k) __builtin_prefetch(places + later[k], 1);
+      for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
       const std::uint32_t* const row = row_of(members_[next]);
       const std::uint32_t mix = places[members_[next]].mix;
       std::uint32_t open[D], across[D];
@@ -214,7 +222,9 @@ class ThinPartitioner {
       for (std::size_t i = 0; i < count; ++i) {
         Dot& known = dots_[across[i]];
         if (known.slab != facet) known = {dot(own.plane.data(), across[i]), facet};
-        if (known.value >= own.least) take(open[i], facet);
+        if (known.value < own.least) continue;
+        take(open[i], facet);
+        add_member(open[i]);
       }
     }
   }
@@ -222,13 +232,13 @@ class ThinPartitioner {
   /// Two simplices below a plane between theirs.
   void take_pairs() {
     const auto fetch = [&](std::uint32_t row) {
-      __builtin_prefetch(plane_of(row));
-      __builtin_prefetch(plane_of(row) + D - 1);
+      prefetch(plane_of(row), D);
       for (std::size_t k = 0; k < D; ++k) {
         const std::uint32_t other = row_of(row)[D + k];
         if (is_taken_[other] != 0) continue;
-        __builtin_prefetch(&facets_.simplices[other]);
-        __builtin_prefetch(&determinants_[other]);
+        prefetch(&facets_.simplices[other]);
+        prefetch(&determinants_[other]);
+        prefetch(plane_of(other), D);
       }
     };
     for_each_open([](std::uint32_t) { return true; }, fetch, [&](std::uint32_t row) { pair(row); });
@@ -295,7 +305,7 @@ class ThinPartitioner {
   std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
   std::vector<std::uint8_t> is_taken_;  // per row: in a facet, or free
   std::vector<Dot> dots_;               // per point
-  std::vector<std::uint32_t> members_;  // of the facet that is being made, but for its seed
+  std::vector<std::uint32_t> members_;  // of the facet that is being grown, but for its seed
 };
 
 }  // namespace

@@ -46,15 +46,20 @@ void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t
 std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t begin, std::size_t end,
                                std::size_t point_count) {
   std::vector<std::uint8_t> is_corner(point_count, 0);
+  std::atomic<std::size_t> others = point_count;  // that are no corner as far as is known
   for_each_block(end - begin, kRowsAtATime, [&](std::size_t first, std::size_t last) {
+    if (others.load(std::memory_order_relaxed) == 0) return;
+    std::size_t found = 0;
     for (std::size_t row = begin + first; row < begin + last; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
       for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
         const std::atomic_ref flag(is_corner[id.value]);  // of several threads
         // Most are set already: written once, their lines stay with all cores.
-        if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
+        if (flag.load(std::memory_order_relaxed) == 0)
+          found += flag.exchange(1, std::memory_order_relaxed) == 0 ? 1u : 0u;
       }
     }
+    if (found > 0) others.fetch_sub(found, std::memory_order_relaxed);
   });
   return {is_corner.begin(), is_corner.end()};
 }
