@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -132,8 +133,8 @@ class Merging {
       facet_seen[id] = id;
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const SimplexId later{rows[std::min(i + kAhead, rows.size() - 1)]};
-        __builtin_prefetch(complex_.vertices(later).data());
-        __builtin_prefetch(&complex_.neighbours(later).back());
+        prefetch(complex_.vertices(later).data());
+        prefetch(&complex_.neighbours(later).back());
         for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
           add(cluster.vertices, vertex_seen, space_.row_of(point), id);
         for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))

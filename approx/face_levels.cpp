@@ -1,4 +1,5 @@
 #include "approx/face_levels.h"
+#include "core/prefetch.h"
 
 #include <algorithm>
 
@@ -29,10 +30,10 @@ class FaceIndex {
   }
 
   /// Fetches what `find_or_add` reads first, and next.
-  void prefetch_slot(std::uint64_t hash) const { __builtin_prefetch(&slots_[place_of(hash)]); }
+  void prefetch_slot(std::uint64_t hash) const { prefetch(&slots_[place_of(hash)]); }
   void prefetch_row(std::uint64_t hash) const {
     const Slot& slot = slots_[place_of(hash)];
-    if (slot.face != 0) __builtin_prefetch(level_.row(slot.face - 1));
+    if (slot.face != 0) prefetch(level_.row(slot.face - 1));
   }
 
   /// The face with the planes of row `row` but for one; a new one when there is none. `base` is a vertex of

@@ -12,6 +12,7 @@
 #include "core/highest_dots.h"
 #include "core/id_rows.h"
 #include "core/plane_kernels.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -42,7 +43,7 @@ void listed_facets_dots(const SimplicialComplex& complex, const FacetLayout& lay
       const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
       for (std::size_t i = 0; i < simplices.size(); ++i) {
         const std::size_t later = std::min(first + i + kAhead, layout.simplices.size() - 1);
-        __builtin_prefetch(complex.vertices(layout.simplices[later]).data());
+        prefetch(complex.vertices(layout.simplices[later]).data());
         if (simplices.size() == 1) {
           for (const PointId id : complex.vertices(simplices[i]))
             scratch.rows.values.push_back(points.row_of_point[id.value]);

@@ -1,4 +1,5 @@
 #include "approx/flat_facets.h"
+#include "core/prefetch.h"
 
 #include <algorithm>
 #include <bit>
@@ -77,7 +78,7 @@ class FlatSearch {
     for (const PointId id : vertices_) planes_of_[id.value] = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (i + kAhead < left.size()) __builtin_prefetch(complex_.vertices(SimplexId{left[i + kAhead]}).data());
+      if (i + kAhead < left.size()) prefetch(complex_.vertices(SimplexId{left[i + kAhead]}).data());
       const std::uint32_t row = left[i];
       const auto vertices = complex_.vertices(SimplexId{row});
       std::uint64_t common = ~std::uint64_t{0};
@@ -128,7 +129,7 @@ class FlatSearch {
     walk_[0] = flat.seed;
     cluster_of_[flat.seed] = reached;
     for (std::size_t i = 0; i < count; ++i) {
-      if (i + kAhead < count) __builtin_prefetch(complex_.vertices(SimplexId{walk_[i + kAhead]}).data());
+      if (i + kAhead < count) prefetch(complex_.vertices(SimplexId{walk_[i + kAhead]}).data());
       const SimplexId simplex{walk_[i]};
       for (const SimplexId neighbour : complex_.neighbours(simplex)) {
         std::uint32_t& other = cluster_of_[neighbour.value];

@@ -15,6 +15,7 @@
 
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/prefetch.h"
 
 #ifndef NDHULL_BYTE_SEARCH_
 #define NDHULL_BYTE_SEARCH_
@@ -265,7 +266,7 @@ class SegmentSearch {
           const std::size_t place =
               tile * BytePoints::kTile + at + static_cast<std::size_t>(__builtin_ctzll(bits));
           if (place >= points_.rows().count) break;
-          __builtin_prefetch(points_.rows().row(place));
+          prefetch(points_.rows().row(place));
           memory_.candidates.push_back(place);
         }
       }

@@ -16,6 +16,7 @@
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/highest_dots.h"
+#include "core/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -153,8 +154,8 @@ void mark_flat_of(const SimplicialComplex& complex, const double* points, double
       if (row + kAhead < end && looks_at[row + kAhead]) {
         const SimplexId ahead{static_cast<std::uint32_t>(row + kAhead)};
         for (const SimplexId later : complex.neighbours(ahead)) {
-          __builtin_prefetch(complex.neighbours(later).data());
-          __builtin_prefetch(complex.vertices(later).data());
+          prefetch(complex.neighbours(later).data());
+          prefetch(complex.vertices(later).data());
         }
       }
       if (!looks_at[row]) continue;

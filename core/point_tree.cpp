@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/blocks.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -163,7 +164,7 @@ void PointTree::fill(std::span<const double> points) {
         for (std::size_t i = 0; i < kSize; ++i) {
           const std::size_t place = std::min(group * kSize + i, order_.size() - 1);
           const std::size_t ahead = std::min(place + kSize, order_.size() - 1);
-          __builtin_prefetch(points.data() + std::size_t{order_[ahead]} * dimension_);
+          prefetch(points.data() + std::size_t{order_[ahead]} * dimension_);
           const double* from = points.data() + std::size_t{order_[place]} * dimension_;
           double* const copy = points_.data() + place * dimension_;
           float* const scaled = scaled_rows_.data() + group * dimension_ * kSize + i;

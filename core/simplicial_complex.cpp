@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/blocks.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 
@@ -120,7 +121,7 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
   }
   for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      __builtin_prefetch(complex.topology.data() + old_of_new[rows[std::min(i + kAhead, end - 1)]] * width);
+      prefetch(complex.topology.data() + old_of_new[rows[std::min(i + kAhead, end - 1)]] * width);
       std::uint32_t* row = taken + i * width;
       std::copy_n(complex.topology.data() + old_of_new[rows[i]] * width, width, row);
       if (!takes_all) continue;
