@@ -14,6 +14,7 @@
 
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -209,8 +210,7 @@ class Search {
     const std::size_t count = std::min(PointTree::kSize, tree_.groups().count - begin);
     for_each_above(bounds, count,
                    [&](std::size_t i) {  // all on their way from memory before the first is used
-                     for (std::size_t k = 0; k < width(); ++k)
-                       __builtin_prefetch(tree_.scaled_rows(begin + i, k));
+                     for (std::size_t k = 0; k < width(); ++k) prefetch(tree_.scaled_rows(begin + i, k));
                    });
     for_each_above(bounds, count, [&](std::size_t i) { search(begin + i); });
   }

@@ -10,7 +10,7 @@
 namespace ndhull {
 namespace {
 
-/// Rows of vertices that are all that is looked at; every seventh is free.
+/// Rows with vertices only, no hull; every seventh is free.
 SimplicialComplex rows_of_vertices(std::size_t rank, std::size_t rows, std::uint32_t points, unsigned seed) {
   SimplicialComplex complex(rank, rows);
   complex.row_count = rows;
