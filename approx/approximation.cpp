@@ -272,7 +272,8 @@ std::span<const double> Approximation::find_determinants() {
   if (determinants_.data() == nullptr) {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex.row_count);
-    solve_outwards(complex, growth_.coordinates(), {}, {determinants_.data(), complex.row_count});
+    chain_outwards(complex, growth_.coordinates(), space_->point_count(),
+                   {determinants_.data(), complex.row_count});
     hull_.statistics.detail_seconds.emplace_back("volumes", seconds_since(start));
   }
   return {determinants_.data(), complex.row_count};

@@ -42,9 +42,7 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   constexpr std::size_t kFacetsAtATime = 64;
   const SimplicialComplex& complex = *facets.complex;
   Covering covering;
-  covering.facet_of.resize(complex.row_count);
-  std::transform(facets.simplices.data(), facets.simplices.data() + complex.row_count,
-                 covering.facet_of.begin(), [](const SimplexPlace& simplex) { return simplex.facet; });
+  covering.facet_of.assign(facets.facet_of.data(), facets.facet_of.data() + complex.row_count);
   covering.planes.resize(facets.count());
   const FacetMembers members(covering);
   struct MeasureScratch {
@@ -82,10 +80,10 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
 
 FacetClusters clusters_of(const DualFacets& facets) {
   const std::size_t rank = facets.complex->rank, rows = facets.complex->row_count;
-  const SimplexPlace* const places = facets.simplices.data();
+  const std::uint32_t* const facet_of = facets.facet_of.data();
   std::vector<std::uint32_t> cluster(facets.count(), 0);  // simplices first, then which cluster
   for (std::size_t row = 0; row < rows; ++row)
-    if (places[row].facet != kNone) ++cluster[places[row].facet];
+    if (facet_of[row] != kNone) ++cluster[facet_of[row]];
   FacetClusters clusters;
   for (std::size_t facet = 0; facet < facets.count(); ++facet) {
     const bool is_cluster = cluster[facet] > 1 || facets.own_plane[facet] != kNone;
@@ -100,9 +98,8 @@ FacetClusters clusters_of(const DualFacets& facets) {
     clusters.planes.insert(clusters.planes.end(), plane.begin(), plane.end());
   }
   clusters.cluster_of.resize(rows);
-  std::transform(places, places + rows, clusters.cluster_of.begin(), [&](const SimplexPlace& simplex) {
-    return simplex.facet == kNone ? kNone : cluster[simplex.facet];
-  });
+  std::transform(facet_of, facet_of + rows, clusters.cluster_of.begin(),
+                 [&](std::uint32_t facet) { return facet == kNone ? kNone : cluster[facet]; });
   return clusters;
 }
 

@@ -12,6 +12,7 @@
 #include "approx/covering.h"
 #include "approx/facet_layout.h"
 #include "approx/plane_fit.h"
+#include "approx/simplex_marks.h"
 #include "approx/width_space.h"
 #include "core/huge_array.h"
 #include "core/ids.h"
@@ -19,16 +20,11 @@
 
 namespace ndhull {
 
-/// What a walk over neighbours has to know of a simplex.
-struct SimplexPlace {
-  std::uint32_t facet = 0;  ///< kNone: in none yet, or a free row
-  std::uint32_t mix = 0;    ///< XOR of its vertices (PointIds): gives the vertex across a ridge
-};
-
 /// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
 struct DualFacets {
   const SimplicialComplex* complex = nullptr;
-  HugeArray<SimplexPlace> simplices;     ///< per row of the complex
+  HugeArray<std::uint32_t> facet_of;     ///< per row of the complex; kNone: a free row
+  SimplexMarks marks;                    ///< of each row; taken: in a facet, or a free row
   std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
   std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
   std::vector<double> own_planes;        ///< planes x rank

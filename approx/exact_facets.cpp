@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "approx/coplanar_merge.h"
-#include "core/plane_kernels.h"
+#include "core/determinants.h"
 
 namespace ndhull {
 namespace {
@@ -19,6 +19,13 @@ SimplicialComplex copy_of(const SimplicialComplex& complex) {
   return copy;
 }
 
+void turn_outwards(std::span<double> determinants) {
+  double sum = 0.0;
+  for (const double determinant : determinants) sum += determinant;
+  if (sum >= 0.0) return;
+  for (double& determinant : determinants) determinant = -determinant;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work) {
@@ -30,10 +37,14 @@ std::vector<std::uint8_t> find_shifted(const GrowthWork& work) {
 void solve_outwards(SimplicialComplex& complex, const double* points,
                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
   solve_simplices(complex, points, is_shifted, determinants);
-  double sum = 0.0;
-  for (const double determinant : determinants) sum += determinant;
-  if (sum >= 0.0) return;
-  for (double& determinant : determinants) determinant = -determinant;
+  turn_outwards(determinants);
+}
+
+void chain_outwards(SimplicialComplex& complex, const double* points, std::size_t point_count,
+                    std::span<double> determinants) {
+  if (!chain_determinants(complex, points, point_count, determinants))
+    return solve_outwards(complex, points, {}, determinants);
+  turn_outwards(determinants);
 }
 
 std::uint64_t count_exact_facets(const GrowthWork& work, const double* points) {

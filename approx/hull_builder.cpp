@@ -112,7 +112,6 @@ class HullBuilder {
   void detail(std::string_view name, Clock::time_point since) {
     hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
   }
-
   void describe_input() {
     hull_.dimension = frame_.dimension;
     hull_.rank = frame_.rank;
@@ -172,10 +171,14 @@ class HullBuilder {
     const Clock::time_point start = Clock::now();
     const std::size_t rows = complex().row_count;
     determinants_ = HugeArray<double>(rows);
-    if (frame_.rank >= 2)
-      solve_outwards(complex(), growth_->coordinates(), is_shifted, {determinants_.data(), rows});
-    for (std::size_t row = 0; row < rows && frame_.rank == 1; ++row)
-      determinants_[row] = std::abs(1.0 / complex().planes[row]);
+    const std::span<double> all(determinants_.data(), rows);
+    if (frame_.rank == 1) {
+      for (std::size_t row = 0; row < rows; ++row) all[row] = std::abs(1.0 / complex().planes[row]);
+    } else if (clusters_.count > 0 && is_shifted.empty()) {
+      chain_outwards(complex(), growth_->coordinates(), points_.rows, all);
+    } else {
+      solve_outwards(complex(), growth_->coordinates(), is_shifted, all);
+    }
     detail("volumes", start);
   }
 

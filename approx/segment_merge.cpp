@@ -117,12 +117,16 @@ class SegmentMerger {
       prefetch(plane_of(later), D);
       for (const std::uint32_t row : table_.members_of(later)) {
         prefetch(row_of(row), 2 * D);
-        prefetch(&table_.simplices[row]);
+        table_.marks.ask_for(row);
       }
     }
     if (place + 1 == facets.size()) return;
-    for (const std::uint32_t row : table_.members_of(facets[place + 1]))
-      for (std::size_t k = 0; k < D; ++k) prefetch(&table_.simplices[row_of(row)[D + k]]);
+    for (const std::uint32_t row : table_.members_of(facets[place + 1])) {
+      for (std::size_t k = 0; k < D; ++k) {
+        prefetch(&table_.facet_of[row_of(row)[D + k]]);
+        table_.marks.ask_for(row_of(row)[D + k]);
+      }
+    }
   }
 
   const std::uint32_t* row_of(std::uint32_t row) const {
@@ -169,18 +173,18 @@ class SegmentMerger {
     const double top = facets_[facet].top, room = facets_[facet].room, lowest = top - (1.0 + kReach) * room;
     for_members(facet, [&](std::uint32_t simplex) {
       const std::uint32_t* row = row_of(simplex);
-      const std::uint32_t mix = table_.simplices[simplex].mix;
+      const SimplexMarks::Mark mark = table_.marks[simplex];
       for (std::size_t k = 0; k < D; ++k) {
-        const SimplexPlace neighbour = table_.simplices[row[D + k]];
-        if (neighbour.facet == facet) continue;
-        const double height = dot(plane, mix ^ row[k] ^ neighbour.mix);
-        std::uint32_t& place = place_of_[neighbour.facet];
-        if (place >= neighbours_.size() || neighbours_[place].facet != neighbour.facet) {
+        const std::uint32_t other = table_.facet_of[row[D + k]];
+        if (other == facet) continue;
+        const double height = dot(plane, table_.marks.vertex_across(mark, row[k], table_.marks[row[D + k]]));
+        std::uint32_t& place = place_of_[other];
+        if (place >= neighbours_.size() || neighbours_[place].facet != other) {
           if (height < lowest) continue;
           place = static_cast<std::uint32_t>(neighbours_.size());
-          neighbours_.push_back({neighbour.facet, Interval()});
-          prefetch(&facets_[neighbour.facet]);
-          prefetch(plane_of(neighbour.facet), D);
+          neighbours_.push_back({other, Interval()});
+          prefetch(&facets_[other]);
+          prefetch(plane_of(other), D);
         }
         ridges_.push_back({place, row[k], height});
       }
@@ -246,7 +250,7 @@ class SegmentMerger {
   }
 
   void join(std::uint32_t facet, std::uint32_t host, double place) {
-    for_members(facet, [&](std::uint32_t row) { table_.simplices[row].facet = host; });
+    for_members(facet, [&](std::uint32_t row) { table_.facet_of[row] = host; });
     double* const between = planes_.data() + std::size_t{host} * D;
     mix_planes(plane_of(facet), between, place, between);
     if (table_.own_plane[host] == kNone) {
@@ -287,7 +291,7 @@ class SegmentMerger {
       begin.push_back(static_cast<std::uint32_t>(members.size()));
       for_members(facet, [&](std::uint32_t row) {
         members.push_back(row);
-        table_.simplices[row].facet = used;
+        table_.facet_of[row] = used;
       });
       table_.seeds[used] = table_.seeds[facet];
       table_.own_plane[used] = table_.own_plane[facet];

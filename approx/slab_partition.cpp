@@ -48,13 +48,14 @@ class Partitioner {
         planes_(complex, space, factor, above, width),
         dots_(space.point_count()) {
     facets_.complex = &complex;
-    facets_.simplices = HugeArray<SimplexPlace>(complex.row_count);
+    facets_.facet_of = HugeArray<std::uint32_t>(complex.row_count);
+    facets_.marks = SimplexMarks(complex.row_count, space.point_count());
     for_each_block(complex.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
       for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
-        SimplexPlace& place = facets_.simplices[row];
-        place.facet = kNone;
-        if (!is_live(row)) continue;
-        for (std::size_t k = 0; k < D; ++k) place.mix ^= row_of(row)[k];
+        std::uint32_t mix = 0;
+        for (std::size_t k = 0; k < D; ++k) mix ^= row_of(row)[k];
+        facets_.marks.put(row, mix, !is_live(row));
+        if (!is_live(row)) facets_.facet_of[row] = kNone;
       }
     });
     for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
@@ -72,7 +73,7 @@ class Partitioner {
       ++slabs;
       SeedPlane<D> own = planes_.own(row);
       if (!planes_.raise_above_points(row, own)) continue;
-      grow(row, own, 0);
+      grow(row, own);
       sum += count_;
       give_back({0, 0});
     }
@@ -85,8 +86,8 @@ class Partitioner {
     return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
   }
 
-  /// All simplices, each in no facet yet.
-  DualFacets take_places() { return std::move(facets_); }
+  /// All simplices, none of them taken.
+  DualFacets take_marks() { return std::move(facets_); }
 
   /// `mean`: mean_size().
   DualFacets run(double mean) {
@@ -104,6 +105,8 @@ class Partitioner {
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
     facets_.members.assign(members_.data(), members_.data() + count_);
+    for (std::uint32_t facet = 0; facet < facets_.count(); ++facet)
+      for (const std::uint32_t row : facets_.members_of(facet)) facets_.facet_of[row] = facet;
     facets_.vertices.resize(vertex_count_);
     return std::move(facets_);
   }
@@ -130,13 +133,13 @@ class Partitioner {
 
   /// Appends the simplices of a slab, `own` being its plane: those that are in none yet and connected to the
   /// seed.
-  void grow(std::uint32_t seed, const SeedPlane<D>& own, std::uint32_t facet) {
-    SimplexPlace* const places = facets_.simplices.data();
+  void grow(std::uint32_t seed, const SeedPlane<D>& own) {
+    SimplexMarks& marks = facets_.marks;
     std::uint32_t* const members = members_.data();
     const std::uint32_t slab = ++slab_;
     std::size_t next = count_;
     members[count_++] = seed;
-    places[seed].facet = facet;
+    marks.set_taken(seed, true);
     make_room(D);
     for (std::size_t k = 0; k < D; ++k) {
       const std::uint32_t vertex = row_of(seed)[k];
@@ -146,17 +149,19 @@ class Partitioner {
     for (; next < count_; ++next) {
       if (next + kAhead < count_) {
         const std::uint32_t* later = row_of(members[next + kAhead]) + D;
-        for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
+        for (std::size_t k = 0; k < D; ++k) marks.ask_for(later[k]);
       }
       const std::uint32_t* row = row_of(members[next]);
-      const std::uint32_t mix = places[members[next]].mix;
+      const SimplexMarks::Mark mark = marks[members[next]];
+      SimplexMarks::Mark open_marks[D];
       std::uint32_t open[D], across[D];
       std::size_t open_count = 0;
       for (std::size_t k = 0; k < D; ++k) {
-        const SimplexPlace neighbour = places[row[D + k]];
+        const SimplexMarks::Mark neighbour = marks[row[D + k]];
         open[open_count] = row[D + k];
-        across[open_count] = mix ^ row[k] ^ neighbour.mix;
-        open_count += neighbour.facet == kNone ? 1u : 0u;
+        open_marks[open_count] = neighbour;
+        across[open_count] = marks.vertex_across(mark, row[k], neighbour);
+        open_count += SimplexMarks::is_taken(neighbour) ? 0u : 1u;
       }
       make_room(D);
       for (std::size_t i = 0; i < open_count; ++i) {
@@ -169,7 +174,7 @@ class Partitioner {
         members[count_] = open[i];
         const std::uint32_t* asked = row_of(is_taken ? open[i] : members[next]);
         prefetch(asked, 2 * D);
-        places[open[i]].facet = is_taken ? facet : kNone;
+        marks.put(open[i], static_cast<std::uint32_t>(open_marks[i]), is_taken);
         count_ += is_taken ? 1u : 0u;
       }
     }
@@ -182,7 +187,7 @@ class Partitioner {
   }
 
   void give_back(Ends begin) {
-    for (std::size_t i = begin.members; i < count_; ++i) facets_.simplices[members_[i]].facet = kNone;
+    for (std::size_t i = begin.members; i < count_; ++i) facets_.marks.set_taken(members_[i], false);
     count_ = begin.members;
     vertex_count_ = begin.vertices;
   }
@@ -237,27 +242,26 @@ class Partitioner {
     ++pass_;
     std::size_t left = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      prefetch(facets_.simplices.data() + seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
+      facets_.marks.ask_for(seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
       const std::uint32_t soon = seeds[std::min(i + kPlanesAhead, seeds.size() - 1)];
-      if (facets_.simplices[soon].facet == kNone) {
+      if (!facets_.marks.is_taken(soon)) {
         prefetch(complex_.planes.data() + std::size_t{soon} * D, D);
         prefetch(row_of(soon), 2 * D);
       }
       const std::uint32_t seed = seeds[i];
-      if (facets_.simplices[seed].facet != kNone) continue;
+      if (facets_.marks.is_taken(seed)) continue;
       if (least > 1 && no_seed_[seed] == pass_) {
         seeds[left++] = seed;
         continue;
       }
       const Ends begin{count_, vertex_count_};
       SeedPlane<D> own = planes_.own(seed);
-      const auto facet = static_cast<std::uint32_t>(facets_.count());
       const bool fits = planes_.raise_above_points(seed, own);
       if (fits) {
-        grow(seed, own, facet);
+        grow(seed, own);
       } else {
         members_[count_++] = seed;
-        facets_.simplices[seed].facet = facet;
+        facets_.marks.set_taken(seed, true);
       }
       const std::size_t size = count_ - begin.members;
       if (size >= least) {
@@ -292,15 +296,16 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
                                                double width, const FindDeterminants& find_determinants) {
+  if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
     const double mean = partitioner.mean_size();
     if (partitioner.is_worth_choosing(mean)) return std::nullopt;
     if (find_determinants && mean < kThinSlabs)
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
-                                       partitioner.take_places());
+                                       partitioner.take_marks());
+    if (!find_determinants) return partitioner.run(mean);
     // Slabs are one thread's work: another one may find the determinants, which will be wanted anyway.
-    if (!find_determinants || !has_more_threads()) return partitioner.run(mean);
     DualFacets facets;
     do_beside([&] { facets = partitioner.run(mean); }, [&] { find_determinants(); });
     return facets;

@@ -57,10 +57,7 @@ class ThinPartitioner {
         row_count_(static_cast<std::uint32_t>(complex_.row_count)),
         facets_(std::move(facets)),
         fitting_(row_count_),
-        is_taken_(row_count_),
-        dots_(space.point_count()) {
-    for (std::uint32_t row = 0; row < row_count_; ++row) is_taken_[row] = is_live(row) ? 0 : 1;
-  }
+        dots_(space.point_count()) {}
 
   DualFacets run() {
     find_stars();
@@ -80,7 +77,7 @@ class ThinPartitioner {
     std::uint32_t slab = kNone;  // that it was computed for
   };
 
-  bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
+  bool is_taken(std::uint32_t row) const { return facets_.marks.is_taken(row); }
   const std::uint32_t* row_of(std::uint32_t row) const {
     return complex_.topology.data() + std::size_t{row} * 2 * D;
   }
@@ -90,19 +87,18 @@ class ThinPartitioner {
   }
   std::uint32_t vertex_across(std::uint32_t row, std::size_t k) const {
     const std::uint32_t* const vertices = row_of(row);
-    return facets_.simplices[row].mix ^ vertices[k] ^ facets_.simplices[vertices[D + k]].mix;
+    return facets_.marks.vertex_across(facets_.marks[row], vertices[k], facets_.marks[vertices[D + k]]);
   }
 
   /// Which neighbours are less than the width below each row's own plane. Points above are not looked at
   /// here: they leave less.
   void find_stars() {
-    const SimplexPlace* const places = facets_.simplices.data();
     for_each_block(row_count_, kStarsInBlock, [&](std::size_t begin, std::size_t end) {
       for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
         const std::uint32_t* const later =
             row_of(std::min<std::uint32_t>(row + kRowsAhead, row_count_ - 1)) + D;
-        for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
-        if (is_taken_[row] != 0) continue;
+        for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(later[k]);
+        if (is_taken(row)) continue;
         const double* const plane = plane_of(row);
         const double least = 1.0 - width_ * planes_.length_of(plane);
         unsigned fitting = 0;
@@ -140,12 +136,12 @@ class ThinPartitioner {
       std::size_t count = 0;
       for (std::uint32_t row = first; row < last; ++row) {
         rows[count] = row;
-        count += is_taken_[row] == 0 && is_wanted(row) ? 1u : 0u;
+        count += !is_taken(row) && is_wanted(row) ? 1u : 0u;
       }
       for (std::size_t i = 0; i < count; ++i) {
         prefetch(row_of(rows[std::min(i + 2 * kRowsAhead, count - 1)]), 2 * D);
         fetch(rows[std::min(i + kRowsAhead, count - 1)]);
-        if (is_taken_[rows[i]] == 0) visit(rows[i]);
+        if (!is_taken(rows[i])) visit(rows[i]);
       }
     }
   }
@@ -176,7 +172,7 @@ class ThinPartitioner {
     unsigned open = 0;
     for (unsigned left = bits; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      open |= (is_taken_[row_of(row)[D + k]] == 0 ? 1u : 0u) << k;
+      open |= (is_taken(row_of(row)[D + k]) ? 0u : 1u) << k;
     }
     bits = static_cast<NeighbourBits>(open);
   }
@@ -192,8 +188,8 @@ class ThinPartitioner {
   }
 
   void take(std::uint32_t row, std::uint32_t facet) {
-    is_taken_[row] = 1;
-    facets_.simplices[row].facet = facet;
+    facets_.marks.set_taken(row, true);
+    facets_.facet_of[row] = facet;
   }
   /// Neighbours of a member are looked at later.
   void add_member(std::uint32_t row) {
@@ -203,21 +199,20 @@ class ThinPartitioner {
 
   /// Takes what is in the slab behind the neighbours that were taken from a seed.
   void grow(std::uint32_t seed, const SeedPlane<D>& own, std::uint32_t facet) {
-    const SimplexPlace* const places = facets_.simplices.data();
     for (std::size_t k = 0; k < D; ++k) dots_[row_of(seed)[k]] = {HUGE_VAL, facet};
     for (std::size_t next = 0; next < members_.size(); ++next) {
       const std::uint32_t* const later =
           row_of(members_[std::min(next + kMembersAhead, members_.size() - 1)]) + D;
-      for (std::size_t k = 0; k < D; ++k) prefetch(places + later[k]);
+      for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(later[k]);
       const std::uint32_t* const row = row_of(members_[next]);
-      const std::uint32_t mix = places[members_[next]].mix;
+      const SimplexMarks::Mark mark = facets_.marks[members_[next]];
       std::uint32_t open[D], across[D];
       std::size_t count = 0;
       for (std::size_t k = 0; k < D; ++k) {
-        const SimplexPlace neighbour = places[row[D + k]];
+        const SimplexMarks::Mark neighbour = facets_.marks[row[D + k]];
         open[count] = row[D + k];
-        across[count] = mix ^ row[k] ^ neighbour.mix;
-        count += neighbour.facet == kNone ? 1u : 0u;
+        across[count] = facets_.marks.vertex_across(mark, row[k], neighbour);
+        count += SimplexMarks::is_taken(neighbour) ? 0u : 1u;
       }
       for (std::size_t i = 0; i < count; ++i) {
         Dot& known = dots_[across[i]];
@@ -235,8 +230,8 @@ class ThinPartitioner {
       prefetch(plane_of(row), D);
       for (std::size_t k = 0; k < D; ++k) {
         const std::uint32_t other = row_of(row)[D + k];
-        if (is_taken_[other] != 0) continue;
-        prefetch(&facets_.simplices[other]);
+        if (is_taken(other)) continue;
+        facets_.marks.ask_for(other);
         prefetch(&determinants_[other]);
         prefetch(plane_of(other), D);
       }
@@ -246,9 +241,9 @@ class ThinPartitioner {
 
   void pair(std::uint32_t row) {
     double room = 0.0;
-    for (std::size_t k = 0; k < D && is_taken_[row] == 0; ++k) {
+    for (std::size_t k = 0; k < D && !is_taken(row); ++k) {
       const std::uint32_t other = row_of(row)[D + k];
-      if (is_taken_[other] != 0) continue;
+      if (is_taken(other)) continue;
       if (room == 0.0) room = width_ * planes_.length_of(plane_of(row));
       const double depth = 1.0 - dot(plane_of(row), vertex_across(row, k)), own = determinants_[row];
       if (depth * own <= room * (own + determinants_[other])) take_pair(row, k);
@@ -271,7 +266,7 @@ class ThinPartitioner {
 
   void take_others() {
     for (std::uint32_t row = 0; row < row_count_; ++row) {
-      if (is_taken_[row] != 0) continue;
+      if (is_taken(row)) continue;
       if (!planes_.may_have_points_above()) {
         add_facet(row);
         continue;
@@ -289,8 +284,7 @@ class ThinPartitioner {
     facets_.own_plane.push_back(plane == nullptr ? kNone
                                                  : static_cast<std::uint32_t>(facets_.own_planes.size() / D));
     if (plane != nullptr) facets_.own_planes.insert(facets_.own_planes.end(), plane->begin(), plane->end());
-    is_taken_[seed] = 1;
-    facets_.simplices[seed].facet = facet;
+    take(seed, facet);
     return facet;
   }
 
@@ -303,7 +297,6 @@ class ThinPartitioner {
   std::uint32_t row_count_;
   DualFacets facets_;
   std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
-  std::vector<std::uint8_t> is_taken_;  // per row: in a facet, or free
   std::vector<Dot> dots_;               // per point
   std::vector<std::uint32_t> members_;  // of the facet that is being grown, but for its seed
 };

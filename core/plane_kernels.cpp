@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/block_elimination-inl.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/highest_dots.h"
@@ -21,6 +20,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::ScalableTag<double>;
+using Lane = hn::Vec<Tag>;
+
 // Simplices that one thread takes at a time: a multiple of all vectors' lanes.
 constexpr std::size_t kSimplicesInBlock = 2048;
 
@@ -179,105 +183,6 @@ void mark_flat_of(const SimplicialComplex& complex, const double* points, double
     for (const std::uint32_t row : block) is_flat[row] = 1;
 }
 
-/// What elimination finds of the simplices of a block, one a lane.
-template <std::size_t D>
-struct SolvedBlock {
-  HWY_ALIGN double dual[D * HWY_MAX_BYTES / sizeof(double)];  // entry k of a lane at k * lanes + lane
-  HWY_ALIGN double determinant[HWY_MAX_BYTES / sizeof(double)];
-  HWY_ALIGN double smallest[HWY_MAX_BYTES / sizeof(double)];  // diagonal entry
-};
-
-template <std::size_t D, bool kPivots>
-void solve_block(const double* const* rows, SolvedBlock<D>& solved) {
-  const Tag tag;
-  const std::size_t lanes = hn::Lanes(tag);
-  HWY_ALIGN double entries[D * D * HWY_MAX_BYTES / sizeof(double)];
-  for (std::size_t i = 0; i < D; ++i) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const double* row = rows[lane * D + i];
-      for (std::size_t k = 0; k < D; ++k) entries[(i * D + k) * lanes + lane] = row[k];
-    }
-  }
-  Lane matrix[D][D + 1], dual[D], smallest = hn::Set(tag, 1.0);
-  for (std::size_t i = 0; i < D; ++i) {
-    for (std::size_t k = 0; k < D; ++k) matrix[i][k] = hn::Load(tag, entries + (i * D + k) * lanes);
-    matrix[i][D] = hn::Set(tag, 1.0);
-  }
-  const Lane determinant = eliminate<D, kPivots>(matrix, dual, &smallest);
-  for (std::size_t k = 0; k < D; ++k) hn::StoreU(dual[k], tag, solved.dual + k * lanes);
-  hn::Store(determinant, tag, solved.determinant);
-  hn::Store(smallest, tag, solved.smallest);
-}
-
-/// Has elimination without pivots lost no digits to speak of? Then the solved plane agrees with that of
-/// growth. It may agree where the determinant is wrong, since the right side can be blind to what was lost:
-/// then a diagonal entry is small. Simplices that fail are few.
-template <std::size_t D>
-bool is_good(const SolvedBlock<D>& solved, std::size_t lane, const double* plane, std::size_t lanes) {
-  constexpr double kAgreement = 1e-11, kSmall = 1e-4;
-  double largest = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    largest = std::max(largest, std::abs(plane[k]));
-    difference += std::abs(solved.dual[k * lanes + lane] - plane[k]);  // keeps NaN
-  }
-  return difference <= kAgreement * largest && solved.smallest[lane] > kSmall;
-}
-
-/// Takes the solved plane when it is one: finite and near the plane that growth made.
-template <std::size_t D>
-void take_plane(double* plane, const double* solved, std::size_t lanes) {
-  constexpr double kSamePlane = 1e-6;
-  double largest = 0.0, change = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    largest = std::max(largest, std::abs(plane[k]));
-    const double difference = std::abs(solved[k * lanes] - plane[k]);
-    change = difference <= change ? change : difference;  // keeps NaN
-  }
-  if (!(change <= kSamePlane * largest)) return;
-  for (std::size_t k = 0; k < D; ++k) plane[k] = solved[k * lanes];
-}
-
-template <std::size_t D>
-void solve_simplices_of(SimplicialComplex& complex, const double* points,
-                        std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
-  const std::size_t lanes = hn::Lanes(Tag());
-  for_each_block(complex.row_count, kSimplicesInBlock, [&](std::size_t first, std::size_t last) {
-    std::vector<const double*> rows(lanes * D);
-    // What a simplex gets does not depend on those beside it.
-    std::vector<std::uint8_t> is_replaced(lanes), wants_pivots(lanes);
-    SolvedBlock<D> plain, pivoted;
-    for (std::size_t begin = first; begin < last; begin += lanes) {
-      const std::size_t used = std::min(lanes, last - begin);
-      std::size_t replaced = 0;
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const SimplexId simplex{static_cast<std::uint32_t>(begin + std::min(lane, used - 1))};
-        const auto vertices = complex.vertices(simplex);
-        for (std::size_t i = 0; i < D; ++i) rows[lane * D + i] = points + std::size_t{vertices[i].value} * D;
-        if (is_shifted.empty()) continue;
-        std::uint8_t any = 0;
-        for (const PointId id : vertices) any |= is_shifted[id.value];
-        is_replaced[lane] = any;
-        replaced += any;
-      }
-      if (replaced < lanes) solve_block<D, false>(rows.data(), plain);
-      bool any_wants = false;
-      for (std::size_t lane = 0; lane < used; ++lane) {
-        const double* const plane = complex.planes.data() + (begin + lane) * D;
-        wants_pivots[lane] = is_replaced[lane] != 0 || !is_good<D>(plain, lane, plane, lanes) ? 1 : 0;
-        any_wants = any_wants || wants_pivots[lane] != 0;
-      }
-      if (any_wants) solve_block<D, true>(rows.data(), pivoted);
-      for (std::size_t lane = 0; lane < used; ++lane) {
-        // A zero pivot, of a simplex without volume, turns into NaN further down.
-        const double determinant = (wants_pivots[lane] != 0 ? pivoted : plain).determinant[lane];
-        determinants[begin + lane] = std::isfinite(determinant) ? determinant : 0.0;
-        if (is_replaced[lane] == 0) continue;
-        take_plane<D>(complex.planes.data() + (begin + lane) * D, pivoted.dual + lane, lanes);
-      }
-    }
-  });
-}
-
 void max_dots_any(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                   std::span<double> max_dot) {
   if (dimension > kMaxRank) return max_dots_of<0>(dimension, normals, points, max_dot);
@@ -310,12 +215,6 @@ void mark_flat_any(const SimplicialComplex& complex, const double* points, doubl
       complex.rank, [&](auto d) { mark_flat_of<d>(complex, points, tolerance, looks_at, is_flat); });
 }
 
-void solve_simplices_any(SimplicialComplex& complex, const double* points,
-                         std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
-  call_with_dimension<2, kMaxRank>(
-      complex.rank, [&](auto d) { solve_simplices_of<d>(complex, points, is_shifted, determinants); });
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace ndhull
 HWY_AFTER_NAMESPACE();
@@ -343,11 +242,6 @@ void listed_dots(std::size_t dimension, std::span<const double> normals, std::sp
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
                std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat) {
   NDHULL_BEST_OF(mark_flat_any)(complex, points, tolerance, looks_at, is_flat);
-}
-
-void solve_simplices(SimplicialComplex& complex, const double* points,
-                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
-  NDHULL_BEST_OF(solve_simplices_any)(complex, points, is_shifted, determinants);
 }
 
 }  // namespace ndhull

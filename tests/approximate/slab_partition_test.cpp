@@ -41,7 +41,7 @@ void expect_each_simplex_once(const GrownSphere& sphere, const DualFacets& facet
   for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
     for (const std::uint32_t row : facets.members_of(facet)) {
       ++times[row];
-      EXPECT_EQ(facets.simplices[row].facet, facet);
+      EXPECT_EQ(facets.facet_of[row], facet);
     }
   }
   for (std::uint32_t row = 0; row < complex.row_count; ++row)
@@ -53,7 +53,7 @@ void expect_connected(const GrownSphere& sphere, const DualFacets& facets) {
     std::vector<std::uint32_t> met{facets.seeds[facet]};
     for (std::size_t i = 0; i < met.size(); ++i) {
       for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
-        if (facets.simplices[neighbour.value].facet == facet &&
+        if (facets.facet_of[neighbour.value] == facet &&
             std::find(met.begin(), met.end(), neighbour.value) == met.end())
           met.push_back(neighbour.value);
       }

@@ -27,18 +27,19 @@ struct ThinSlabs {
     solve_outwards(sphere.work.complex, sphere.coordinates.data(), {}, determinants);
   }
   DualFacets find(double width, const WidthSpace& space, PointsAbove above) const {
-    DualFacets places;
-    places.complex = &sphere.work.complex;
-    places.simplices = HugeArray<SimplexPlace>(sphere.work.complex.row_count);
+    DualFacets open;
+    open.complex = &sphere.work.complex;
+    open.facet_of = HugeArray<std::uint32_t>(sphere.work.complex.row_count);
+    open.marks = SimplexMarks(sphere.work.complex.row_count, sphere.work.point_count);
     for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
-      places.simplices[row].facet = kNone;
-      if (!sphere.is_live(row)) continue;
-      for (const PointId id : sphere.work.complex.vertices(SimplexId{row}))
-        places.simplices[row].mix ^= id.value;
+      std::uint32_t mix = 0;
+      for (const PointId id : sphere.work.complex.vertices(SimplexId{row})) mix ^= id.value;
+      open.marks.put(row, mix, !sphere.is_live(row));
+      if (!sphere.is_live(row)) open.facet_of[row] = kNone;
     }
     return partition_into_thin_slabs(
         space, sphere.coordinates.data(), factor, above, width,
-        [this] { return std::span<const double>(determinants); }, std::move(places));
+        [this] { return std::span<const double>(determinants); }, std::move(open));
   }
   DualFacets find(double width) const { return find(width, *sphere.space, PointsAbove::kNoPoint); }
 
@@ -51,7 +52,7 @@ struct ThinSlabs {
 std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sphere, const DualFacets& facets) {
   std::vector<std::vector<std::uint32_t>> members(facets.count());
   for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
-    const std::uint32_t facet = facets.simplices[row].facet;
+    const std::uint32_t facet = facets.facet_of[row];
     EXPECT_EQ(facet != kNone, sphere.is_live(row));
     if (facet < members.size()) members[facet].push_back(row);
   }
@@ -59,7 +60,7 @@ std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sphere, co
     std::vector<std::uint32_t> met{facets.seeds[facet]};
     for (std::size_t i = 0; i < met.size(); ++i) {
       for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
-        if (facets.simplices[neighbour.value].facet == facet &&
+        if (facets.facet_of[neighbour.value] == facet &&
             std::find(met.begin(), met.end(), neighbour.value) == met.end())
           met.push_back(neighbour.value);
       }
@@ -122,7 +123,7 @@ TEST(ThinSlabsLaw, SlabsOfOneSimplexHaveNoNeighbourToPairWith) {
     if (rows.size() != 1) continue;
     ++alone;
     for (const SimplexId other : complex.neighbours(SimplexId{rows[0]})) {
-      if (members[facets.simplices[other.value].facet].size() != 1) continue;
+      if (members[facets.facet_of[other.value]].size() != 1) continue;
       // All planes through their ridge, a hundredth of the way apart.
       const auto a = complex.plane(SimplexId{rows[0]}), b = complex.plane(other);
       double narrowest = HUGE_VAL;
