@@ -192,50 +192,61 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   return layout;
 }
 
+namespace {
+
+/// No row moves: facets get planes of their own.
+void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& clusters,
+                       const ClusterPlaces& places, FacetLayout& layout) {
+  constexpr std::size_t kPlanesInBlock = 4096, kAhead = 16;  // they are anywhere in memory
+  const std::size_t rank = complex.rank;
+  layout.planes = HugeArray<double>(layout.facets * rank);
+  const auto plane_of = [&](std::size_t facet) {
+    if (facet < layout.simplicial) return complex.plane(layout.simplices[facet]).data();
+    return clusters.planes.data() + std::size_t{places.cluster_at[facet - layout.simplicial]} * rank;
+  };
+  for_each_block(layout.facets, kPlanesInBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t facet = begin; facet < end; ++facet) {
+      prefetch(plane_of(std::min(facet + kAhead, end - 1)), rank);
+      std::copy_n(plane_of(facet), rank, layout.planes.data() + facet * rank);
+    }
+  });
+}
+
+}  // namespace
+
 FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
                     std::span<const double> gradient_factor) {
   if (clusters.count == 0) return simplicial_layout(complex);
   const std::size_t rank = complex.rank;
   const ClusterPlaces places = find_places(clusters);
+  const ScaledFactor scaled = scale_factor(gradient_factor);
   FacetLayout layout;
   layout.simplicial = complex.row_count - places.merged_rows;
   layout.facets = layout.simplicial + clusters.count;
-  std::vector<std::uint32_t> old_of_new;
-  if (places.merged_rows < layout.simplicial) {
-    const RowKinds kinds = find_kinds(complex, clusters);
-    layout.regular = kinds.count[kRegular];
-    layout.in_place = layout.simplicial;
-    old_of_new = row_order(kinds);
-  }
-  const ScaledFactor scaled = scale_factor(gradient_factor);
   layout.surface_exponent = scaled.exponent;
+  if (places.merged_rows >= layout.simplicial) {
+    list_simplices(
+        clusters, places, [](std::uint32_t row) { return row; }, layout);
+    layout.gradient_factor = scaled.factor;
+    take_facet_planes(complex, clusters, places, layout);
+    return layout;
+  }
+  const RowKinds kinds = find_kinds(complex, clusters);
+  layout.regular = kinds.count[kRegular];
+  layout.in_place = layout.simplicial;
+  const std::vector<std::uint32_t> old_of_new = row_order(kinds);
   MergedSums sums;
-  const auto list = [&] {
-    if (old_of_new.empty()) {
-      list_simplices(
-          clusters, places, [](std::uint32_t row) { return row; }, layout);
-    } else {
-      list_simplices(
-          clusters, places, [&](std::uint32_t row) { return old_of_new[row]; }, layout);
-    }
-  };
-  do_beside(list, [&] { sums = sum_merged(complex, determinants, clusters, places, scaled.factor); });
+  do_beside(
+      [&] {
+        list_simplices(
+            clusters, places, [&](std::uint32_t row) { return old_of_new[row]; }, layout);
+      },
+      [&] { sums = sum_merged(complex, determinants, clusters, places, scaled.factor); });
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
-  const std::span<const SimplexId> alone = std::span(layout.simplices).first(layout.simplicial);
-  if (old_of_new.empty()) {
-    // Ascending, so that each row is read before it is written to.
-    for (std::size_t facet = 0; facet < alone.size(); ++facet) {
-      const std::size_t row = alone[facet].value;
-      if (row == facet) continue;
-      std::copy_n(complex.planes.data() + row * rank, rank, complex.planes.data() + facet * rank);
-      determinants[facet] = determinants[row];
-    }
-  } else {
-    const auto rows = std::span<const std::uint32_t>(old_of_new).first(layout.simplicial);
-    take_rows({complex.planes.data(), complex.row_count * rank}, rank, rows);
-    take_rows(determinants, 1, rows);
-  }
+  const auto rows = std::span<const std::uint32_t>(old_of_new).first(layout.simplicial);
+  take_rows({complex.planes.data(), complex.row_count * rank}, rank, rows);
+  take_rows(determinants, 1, rows);
   // Merged facets are no more than their simplices: there is room.
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
@@ -243,11 +254,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     std::copy_n(clusters.planes.data() + std::size_t{places.cluster_at[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
-  if (old_of_new.empty()) {
-    complex.planes.discard_from(layout.facets * rank);
-  } else {
-    permute_topology(complex, old_of_new, layout.facets);
-  }
+  permute_topology(complex, old_of_new, layout.facets);
   return layout;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/simplicial_complex.h"
 
@@ -33,11 +34,16 @@ struct FacetLayout {
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
   std::vector<SimplexId> simplices;         ///< facet by facet: 0, 1, 2 .. simplicial - 1, then the merged
   std::vector<FacetId> facet_of_others;     ///< of simplex in_place + i
-  /// Merged facets x rank: the sum of determinant times plane over the simplices; as a covector of the frame
-  /// it points along the facet's mean normal, and its product with a direction is a projected area.
+  /// Where no row moves: facets x rank, the planes of the facets. The complex' planes and the determinants
+  /// are then the simplices', and sums over these are the facet table's work. Else empty.
+  HugeArray<double> planes;
+  std::vector<double> gradient_factor;  ///< rank x rank, times 2^-surface_exponent; where there are planes
+  /// Merged facets x rank, where there are no planes: the sum of determinant times plane over the simplices;
+  /// as a covector of the frame it points along the facet's mean normal, and its product with a direction is
+  /// a projected area.
   std::vector<double> area_vectors;
   /// The sum of determinant times |gradient of the plane|, in input units, over all merged simplices:
-  /// merged_surface * 2^surface_exponent.
+  /// merged_surface * 2^surface_exponent; where there are no planes.
   double merged_surface = 0.0;
   int surface_exponent = 0;
 
@@ -63,8 +69,9 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex);
 
 /// Where fewer than half of the rows of a compacted complex are in merged facets: puts the others, and the
 /// determinants with them, in front; rows of merged facets move only to make room. Else no row moves: hardly
-/// a facet is beside none that is merged. Then row f of complex.planes becomes the plane of facet f,
-/// determinants[f] the sum over its simplices; rows behind the facets' are given back.
+/// a facet is beside none that is merged, and facets have planes of their own. Where rows move, row f of
+/// complex.planes becomes the plane of facet f, determinants[f] the sum over its simplices; rows behind the
+/// facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
 ///         above plane a in input units.

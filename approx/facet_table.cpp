@@ -1,83 +1,31 @@
 #include "approx/facet_table.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "approx/frame_planes.h"
+#include "approx/listed_facets.h"
 #include "core/blocks.h"
+#include "core/dimension_switch.h"
 #include "core/furthest_points.h"
 #include "core/highest_dots.h"
 #include "core/id_rows.h"
 #include "core/plane_kernels.h"
-#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
 
-/// Smallest and largest product of each normal, from facet layout.in_place on, with the vertices of the
-/// facet's simplices, or with those given; and how many are about the largest.
-void listed_facets_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
-                        const CertificatePoints& points, const double* normals, std::span<double> low,
-                        std::span<double> high, std::span<std::uint32_t> close) {
-  constexpr std::size_t kFacetsAtATime = 64, kAhead = 8;  // rows whose way from memory has begun
-  struct FacetListScratch {
-    std::vector<std::uint32_t> last_facet;  // per point: that met it
-    IdRows rows;                            // of the points, facet by facet
-  };
-  tbb::enumerable_thread_specific<FacetListScratch> scratch_of_thread([&] {
-    return FacetListScratch{std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone), IdRows()};
-  });
-  const auto list_vertices = [&](std::uint32_t facet, FacetListScratch& scratch) {
-    const auto meet = [&](std::uint32_t id) {
-      if (scratch.last_facet[id] == facet) return;
-      scratch.last_facet[id] = facet;
-      scratch.rows.values.push_back(points.row_of_point[id]);
-    };
-    if (vertices != nullptr) {
-      for (const std::uint32_t id : vertices->row(facet - layout.in_place)) meet(id);
-    } else {
-      const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
-      const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
-      for (std::size_t i = 0; i < simplices.size(); ++i) {
-        const std::size_t later = std::min(first + i + kAhead, layout.simplices.size() - 1);
-        prefetch(complex.vertices(layout.simplices[later]).data());
-        if (simplices.size() == 1) {
-          for (const PointId id : complex.vertices(simplices[i]))
-            scratch.rows.values.push_back(points.row_of_point[id.value]);
-        } else {
-          for (const PointId id : complex.vertices(simplices[i])) meet(id.value);
-        }
-      }
-    }
-    scratch.rows.begin.push_back(static_cast<std::uint32_t>(scratch.rows.values.size()));
-  };
-  for_each_block(layout.facets - layout.in_place, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
-    FacetListScratch& scratch = scratch_of_thread.local();
-    scratch.rows.begin.assign(1, 0);
-    scratch.rows.values.clear();
-    const std::size_t first = layout.in_place + begin, count = end - begin;
-    for (std::size_t i = 0; i < count; ++i) list_vertices(static_cast<std::uint32_t>(first + i), scratch);
-    listed_dots(points.dimension, {normals + first * points.dimension, count * points.dimension}, points.rows,
-                scratch.rows, low.subspan(first, count), high.subspan(first, count),
-                close.subspan(begin, count));
-  });
-}
-
-/// Sets entries of the merged facets' planes to 0 that are rounding of their fits. In the frame all axes are
+/// Sets entries of a merged facet's plane to 0 that are rounding of its fit. In the frame all axes are
 /// alike; on long ones such entries would look like a tilt, and six sides of a box would seem to bound a
 /// region in 4-d.
-void drop_rounding(SimplicialComplex& complex, const FacetLayout& layout) {
+void drop_rounding(std::span<double> plane) {
   constexpr double kRounding = 8.0 * 0x1p-52;
-  for (std::size_t facet = layout.simplicial; facet < layout.facets; ++facet) {
-    double* plane = complex.planes.data() + facet * complex.rank;
-    double largest = 0.0;
-    for (std::size_t k = 0; k < complex.rank; ++k) largest = std::max(largest, std::abs(plane[k]));
-    for (std::size_t k = 0; k < complex.rank; ++k)
-      if (std::abs(plane[k]) < kRounding * largest) plane[k] = 0.0;
-  }
+  double largest = 0.0;
+  for (const double entry : plane) largest = std::max(largest, std::abs(entry));
+  for (double& entry : plane)
+    if (std::abs(entry) < kRounding * largest) entry = 0.0;
 }
 
 /// How far from the frame's centre a ball of the frame around it reaches along a normal: no covered point
@@ -100,7 +48,7 @@ struct FacetSums {
 /// All facets of one hull: the loops that need each row once share it while it is in cache.
 class TableMaker {
  public:
-  TableMaker(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
+  TableMaker(SimplicialComplex& complex, FacetLayout& layout, const Frame& frame,
              const CertificatePoints& points, HugeArray<double> determinants, const LengthUnit& unit,
              const CoveredPoints& covered, const KnownHighest& known, bool certifies,
              const IdRows* merged_vertices)
@@ -122,20 +70,26 @@ class TableMaker {
     // In two steps: the power itself may be no double where an area is one.
     first_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ / 2, -1022, 1022));
     second_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ - volume_exponent_ / 2, -1022, 1022));
-    determinants.discard_from(count_);
-    table_.offsets = std::move(determinants);
+    if (layout.planes.data() != nullptr) {
+      sums_simplices_ = true;
+      planes_ = std::move(layout.planes);
+      simplex_determinants_ = std::move(determinants);
+      table_.offsets = HugeArray<double>(count_);
+    } else {
+      planes_ = std::move(complex.planes);
+      determinants.discard_from(count_);
+      table_.offsets = std::move(determinants);
+    }
   }
 
   FacetTable run() {
-    drop_rounding(complex_, layout_);
     allocate();
     const bool has_listed = layout_.in_place < count_;
     close_.resize(count_ - layout_.in_place);
     if (has_listed || searches_many_points()) {
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
-      listed_facets_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(), low(0, count_),
-                         high(0, count_), close_);
+      look_at_listed();
       if (searches_many_points()) search_many_points();
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
@@ -145,7 +99,8 @@ class TableMaker {
         end_block(begin, end);
       });
     }
-    if (frame_.rank != dimension_) complex_.planes = HugeArray<double>();
+    planes_ = HugeArray<double>();
+    complex_.planes = HugeArray<double>();
     sum_up();
     return std::move(table_);
   }
@@ -172,7 +127,7 @@ class TableMaker {
 
   void allocate() {
     if (frame_.rank == dimension_) {
-      table_.normals = std::move(complex_.planes);
+      table_.normals = std::move(planes_);
       table_.normals.discard_from(count_ * dimension_);
     } else {
       table_.normals = HugeArray<double>(count_ * dimension_);
@@ -191,13 +146,27 @@ class TableMaker {
   }
 
   void begin_block(std::size_t begin, std::size_t end) {
-    const double* const planes =
-        (frame_.rank == dimension_ ? table_.normals : complex_.planes).data() + begin * frame_.rank;
+    double* const planes =
+        (frame_.rank == dimension_ ? table_.normals : planes_).data() + begin * frame_.rank;
+    for (std::size_t facet = std::max(begin, layout_.simplicial); facet < end; ++facet)
+      drop_rounding({planes + (facet - begin) * frame_.rank, frame_.rank});
     to_input_.map(planes, end - begin, table_.normals.data() + begin * dimension_);
     end = std::min(end, layout_.in_place);
     if (begin >= end) return;
     own_dots(complex_, begin, dimension_, normals(begin, end), points_.rows, points_.row_of_point,
              low(begin, end), high(begin, end));
+  }
+
+  /// Facets with lists of simplices or vertices.
+  void look_at_listed() {
+    VisitFacets sum;
+    if (sums_simplices_) {
+      merged_areas_.resize(count_ - layout_.simplicial);
+      surfaces_.resize((count_ + kListedAtATime - 1) / kListedAtATime);
+      sum = [this](std::size_t begin, std::size_t end) { sum_block(begin, end); };
+    }
+    find_own_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(),
+                  {low(0, count_), high(0, count_), close_}, sum);
   }
 
   void end_block(std::size_t begin, std::size_t end) {
@@ -318,37 +287,57 @@ class TableMaker {
       table_.volume += part.volume;
       table_.area += part.area;
     }
-    const double area_per_determinant = static_cast<double>(frame_.rank) * volume_per_determinant_;
-    project_areas(area_per_determinant);
+    double surface = layout_.merged_surface;
+    for (const double part : surfaces_) surface += part;
+    if (sums_simplices_) {
+      std::copy(merged_areas_.begin(), merged_areas_.end(), table_.areas.data() + layout_.simplicial);
+    } else {
+      for (std::size_t first = layout_.simplicial; first < count_; first += kListedAtATime) {
+        const std::size_t count = std::min(kListedAtATime, count_ - first);
+        project_areas(
+            first,
+            {layout_.area_vectors.data() + (first - layout_.simplicial) * frame_.rank, count * frame_.rank},
+            table_.areas.data() + first);
+      }
+    }
     table_.volume = std::ldexp(table_.volume, volume_exponent_);
-    table_.surface = table_.area + std::ldexp(layout_.merged_surface * area_per_determinant,
+    table_.surface = table_.area + std::ldexp(surface * area_per_determinant(),
                                               layout_.surface_exponent + volume_exponent_);
     for (std::size_t facet = layout_.simplicial; facet < count_; ++facet) table_.area += table_.areas[facet];
   }
 
-  /// Areas of the merged facets: of the projection of their simplices onto their plane. A simplex that faces
+  double area_per_determinant() const { return static_cast<double>(frame_.rank) * volume_per_determinant_; }
+
+  /// Determinants of facets, and areas of those that are merged.
+  void sum_block(std::size_t begin, std::size_t end) {
+    std::array<double, kListedAtATime * kMaxRank> area_vectors;
+    const std::size_t merged = std::clamp(layout_.simplicial, begin, end);
+    const auto used = std::span(area_vectors).first((end - merged) * frame_.rank);
+    SimplexSums sums{{table_.offsets.data() + begin, end - begin}, used};
+    sum_simplices(complex_, {simplex_determinants_.data(), complex_.row_count}, layout_, begin, sums);
+    surfaces_[begin / kListedAtATime] = sums.surface;
+    if (merged < end) project_areas(merged, used, merged_areas_.data() + (merged - layout_.simplicial));
+  }
+
+  /// Areas of merged facets: of the projection of their simplices onto their plane. A simplex that faces
   /// the other way is taken off, and of a wide facet most may: nothing is left then.
-  void project_areas(double area_per_determinant) {
-    constexpr std::size_t kAtATime = 1024;
-    std::vector<double> directions(kAtATime * dimension_), lengths(kAtATime);
-    for (std::size_t first = layout_.simplicial; first < count_; first += kAtATime) {
-      const std::size_t count = std::min(kAtATime, count_ - first);
-      to_input_.map(layout_.area_vectors.data() + (first - layout_.simplicial) * frame_.rank, count,
-                    directions.data(), lengths.data());
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::span<const double> normal = normals(first + i, first + i + 1);
-        double cosine = 0.0;
-        for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[i * dimension_ + k] * normal[k];
-        // A facet of simplices without volume has no direction either.
-        table_.areas[first + i] = std::isfinite(cosine) && cosine > 0.0
-                                      ? to_input_size(lengths[i] * cosine * area_per_determinant)
-                                      : 0.0;
-      }
+  void project_areas(std::size_t first, std::span<const double> area_vectors, double* areas) const {
+    const std::size_t count = area_vectors.size() / frame_.rank;
+    std::vector<double> directions(count * dimension_), lengths(count);
+    to_input_.map(area_vectors.data(), count, directions.data(), lengths.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::span<const double> normal = normals(first + i, first + i + 1);
+      double cosine = 0.0;
+      for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[i * dimension_ + k] * normal[k];
+      // A facet of simplices without volume has no direction either.
+      areas[i] = std::isfinite(cosine) && cosine > 0.0
+                     ? to_input_size(lengths[i] * cosine * area_per_determinant())
+                     : 0.0;
     }
   }
 
   SimplicialComplex& complex_;
-  const FacetLayout& layout_;
+  FacetLayout& layout_;
   const Frame& frame_;
   const CertificatePoints& points_;
   const LengthUnit& unit_;
@@ -366,12 +355,18 @@ class TableMaker {
   std::optional<PointGroups> groups_;
   std::vector<std::uint32_t> close_;  // of facets in_place and on: own vertices about as high as the highest
   std::vector<FacetSums> parts_;
+  HugeArray<double> planes_;  // of the facets
+  // Where sums over simplices are made here.
+  bool sums_simplices_ = false;
+  HugeArray<double> simplex_determinants_;
+  std::vector<double> merged_areas_;  // of facets layout_.simplicial and on
+  std::vector<double> surfaces_;      // of each block of facets
   FacetTable table_;
 };
 
 }  // namespace
 
-FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
+FacetTable make_facet_table(SimplicialComplex& complex, FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, HugeArray<double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
                             bool certifies, const IdRows* merged_vertices) {

@@ -46,10 +46,9 @@ struct CoveredPoints {
 ///
 /// `merged_vertices`: of the merged facets, where the complex has no simplices; otherwise none.
 ///
-/// Shapes    complex.planes and determinants: row f belongs to facet f (see merge_coplanar). Both are
-/// consumed:
-///           the planes are turned into the normals in place where the shapes allow, the offsets lie where
-///           the determinants were.
+/// Shapes    complex.planes and determinants: row f belongs to facet f; or, where layout.planes are the
+///           facets', to simplex f. Planes and determinants are consumed: planes are turned into the normals
+///           in place where the shapes allow.
 /// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on
 /// the
 ///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
@@ -57,7 +56,7 @@ struct CoveredPoints {
 ///           What is known for a normal that differs is raised by the sum of |differences| x largest.
 /// Cost      at most facets x points x dimension fused multiply-adds (core/highest_dots.h,
 ///           core/furthest_points.h); where the products are known, dimension for each facet.
-FacetTable make_facet_table(SimplicialComplex& complex, const FacetLayout& layout, const Frame& frame,
+FacetTable make_facet_table(SimplicialComplex& complex, FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, HugeArray<double> determinants,
                             const LengthUnit& unit, const CoveredPoints& covered, const KnownHighest& known,
                             bool certifies, const IdRows* merged_vertices = nullptr);

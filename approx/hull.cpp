@@ -58,8 +58,14 @@ double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.in
 
 const FacetLists& Hull::lists() const {
   std::call_once(lists_->made, [this] {
-    lists_->lists = list_irregular_facets(simplices(), later_ ? later_->layout(layout_.simplicial) : layout_,
-                                          vertices, point_count);
+    const auto list = [this](const FacetLayout& layout) {
+      lists_->lists = list_irregular_facets(simplices(), layout, vertices, point_count);
+    };
+    if (later_) {
+      list(later_->layout(layout_.simplicial));
+    } else {
+      list(layout_);
+    }
   });
   return lists_->lists;
 }
