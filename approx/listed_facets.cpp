@@ -14,11 +14,36 @@
 namespace ndhull {
 namespace {
 
-constexpr std::size_t kRowsAhead = 8;  // whose way from memory has begun
+constexpr std::size_t kRowsAhead = 24;  // whose way from memory has begun
 
-struct FacetListScratch {
-  std::vector<std::uint32_t> last_facet;  // per point: that met it
-  IdRows rows;                            // of the points, facet by facet
+/// The vertices of some facets one after the other, as rows of the points.
+class VertexLister {
+ public:
+  explicit VertexLister(const CertificatePoints& points)
+      : points_(&points), last_facet_(points.row_of_point.size(), FacetId::kNone) {}
+
+  void clear() {
+    rows_.begin.assign(1, 0);
+    count_ = 0;
+  }
+  /// Of the present facet. Whether one was met before cannot be predicted.
+  void add(std::span<const PointId> vertices, std::uint32_t facet) {
+    if (count_ + vertices.size() > rows_.values.size()) rows_.values.resize(2 * (count_ + vertices.size()));
+    std::uint32_t* const values = rows_.values.data();
+    for (const PointId id : vertices) {
+      values[count_] = points_->row_of_point[id.value];
+      count_ += last_facet_[id.value] != facet ? 1u : 0u;
+      last_facet_[id.value] = facet;
+    }
+  }
+  void end_facet() { rows_.begin.push_back(static_cast<std::uint32_t>(count_)); }
+  const IdRows& rows() const { return rows_; }
+
+ private:
+  const CertificatePoints* points_;
+  std::vector<std::uint32_t> last_facet_;  // per point: that met it
+  IdRows rows_;                            // of the points, facet by facet
+  std::size_t count_ = 0;                  // of its values
 };
 
 template <std::size_t D>
@@ -56,41 +81,28 @@ void sum_simplices_of(const SimplicialComplex& complex, std::span<const double> 
 void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
                    const CertificatePoints& points, const double* normals, const ListedDots& dots,
                    const VisitFacets& also) {
-  tbb::enumerable_thread_specific<FacetListScratch> scratch_of_thread([&] {
-    return FacetListScratch{std::vector<std::uint32_t>(points.row_of_point.size(), FacetId::kNone), IdRows()};
-  });
-  const auto list_vertices = [&](std::uint32_t facet, FacetListScratch& scratch) {
-    const auto meet = [&](std::uint32_t id) {
-      if (scratch.last_facet[id] == facet) return;
-      scratch.last_facet[id] = facet;
-      scratch.rows.values.push_back(points.row_of_point[id]);
-    };
+  tbb::enumerable_thread_specific<VertexLister> lister_of_thread([&] { return VertexLister(points); });
+  const auto list_vertices = [&](std::uint32_t facet, VertexLister& lister) {
     if (vertices != nullptr) {
-      for (const std::uint32_t id : vertices->row(facet - layout.in_place)) meet(id);
+      lister.add(as_ids<PointId>(vertices->row(facet - layout.in_place)), facet);
     } else {
       const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
       const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
       for (std::size_t i = 0; i < simplices.size(); ++i) {
         const std::size_t later = std::min(first + i + kRowsAhead, layout.simplices.size() - 1);
         prefetch(complex.vertices(layout.simplices[later]).data());
-        if (simplices.size() == 1) {
-          for (const PointId id : complex.vertices(simplices[i]))
-            scratch.rows.values.push_back(points.row_of_point[id.value]);
-        } else {
-          for (const PointId id : complex.vertices(simplices[i])) meet(id.value);
-        }
+        lister.add(complex.vertices(simplices[i]), facet);
       }
     }
-    scratch.rows.begin.push_back(static_cast<std::uint32_t>(scratch.rows.values.size()));
+    lister.end_facet();
   };
   for_each_block(layout.facets - layout.in_place, kListedAtATime, [&](std::size_t begin, std::size_t end) {
-    FacetListScratch& scratch = scratch_of_thread.local();
-    scratch.rows.begin.assign(1, 0);
-    scratch.rows.values.clear();
+    VertexLister& lister = lister_of_thread.local();
+    lister.clear();
     const std::size_t first = layout.in_place + begin, count = end - begin;
-    for (std::size_t i = 0; i < count; ++i) list_vertices(static_cast<std::uint32_t>(first + i), scratch);
+    for (std::size_t i = 0; i < count; ++i) list_vertices(static_cast<std::uint32_t>(first + i), lister);
     listed_dots(points.dimension, {normals + first * points.dimension, count * points.dimension}, points.rows,
-                scratch.rows, dots.low.subspan(first, count), dots.high.subspan(first, count),
+                lister.rows(), dots.low.subspan(first, count), dots.high.subspan(first, count),
                 dots.close.subspan(begin, count));
     if (also) also(first, first + count);
   });
