@@ -30,7 +30,7 @@ struct Reach {
 constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
 /// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
 /// few simplices each: there many fit, and large slabs leave hardly any.
-constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 40;
+constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 30;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 constexpr std::size_t kPartOfMean = 4;
 /// So many facets of which none is wider than the hull is high everywhere bound a region.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "approx/seed_planes.h"
 #include "core/blocks.h"
@@ -89,9 +90,45 @@ class Partitioner {
   /// All simplices, none of them taken.
   DualFacets take_marks() { return std::move(facets_); }
 
-  /// `mean`: mean_size().
-  DualFacets run(double mean) {
-    std::vector<std::uint32_t> seeds = seeds_by_distance();
+  /// Live rows, those whose planes are nearest to the centre first.
+  std::vector<std::uint32_t> seeds_by_distance() const {
+    std::vector<float> distances(complex_.row_count);
+    std::vector<SeedBlock> blocks((complex_.row_count + kPlacesInBlock - 1) / kPlacesInBlock);
+    const auto for_live_rows = [&](const auto& visit) {
+      for_each_block(complex_.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row)
+          if (is_live(static_cast<std::uint32_t>(row))) visit(row, blocks[begin / kPlacesInBlock]);
+      });
+    };
+    for_live_rows([&](std::size_t row, SeedBlock& block) {
+      const auto distance = static_cast<float>(1.0 / planes_.length_of(complex_.planes.data() + row * D));
+      distances[row] = distance;
+      block.nearest = std::min(block.nearest, distance);
+      block.furthest = std::max(block.furthest, distance);
+    });
+    float nearest = HUGE_VALF, furthest = 0.0f;
+    for (const SeedBlock& block : blocks) {
+      nearest = std::min(nearest, block.nearest);
+      furthest = std::max(furthest, block.furthest);
+    }
+    const float scale = furthest > nearest ? (kClasses - 0.01f) / (furthest - nearest) : 0.0f;
+    const auto class_of = [&](std::size_t row) {
+      return std::min<std::size_t>(kClasses - 1,
+                                   static_cast<std::size_t>(scale * (distances[row] - nearest)));
+    };
+    for_live_rows([&](std::size_t row, SeedBlock& block) { ++block.places[class_of(row)]; });
+    std::uint32_t next = 0;
+    for (std::size_t c = 0; c < kClasses; ++c)
+      for (SeedBlock& block : blocks) next += std::exchange(block.places[c], next);
+    std::vector<std::uint32_t> seeds(live_count_);
+    for_live_rows([&](std::size_t row, SeedBlock& block) {
+      seeds[block.places[class_of(row)]++] = static_cast<std::uint32_t>(row);
+    });
+    return seeds;
+  }
+
+  /// `mean`: mean_size(); `seeds`: seeds_by_distance().
+  DualFacets run(double mean, std::vector<std::uint32_t> seeds) {
     const auto keep_parts = [&](double part) {
       const auto least = static_cast<std::size_t>(part * mean);
       if (least > 1) keep_slabs(seeds, least);
@@ -117,6 +154,11 @@ class Partitioner {
     double value;
     std::uint32_t slab = 0;        // that it was computed for
     std::uint32_t is_in_slab = 0;  // a vertex of one of its simplices
+  };
+  /// What seeds_by_distance notes of a block of rows: their distances, and where those of each class go.
+  struct SeedBlock {
+    float nearest = HUGE_VALF, furthest = 0.0f;
+    std::array<std::uint32_t, kClasses> places{};
   };
   /// How far the lists of facets are.
   struct Ends {
@@ -205,36 +247,6 @@ class Partitioner {
     facets_.lengths.push_back(static_cast<float>(own.length));
   }
 
-  /// Live rows, those whose planes are nearest to the centre first.
-  std::vector<std::uint32_t> seeds_by_distance() const {
-    std::vector<float> distances(complex_.row_count);
-    for_each_block(complex_.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        if (is_live(static_cast<std::uint32_t>(row)))
-          distances[row] = static_cast<float>(1.0 / planes_.length_of(complex_.planes.data() + row * D));
-      }
-    });
-    float nearest = HUGE_VALF, furthest = 0.0f;
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
-      if (!is_live(row)) continue;
-      nearest = std::min(nearest, distances[row]);
-      furthest = std::max(furthest, distances[row]);
-    }
-    const float scale = furthest > nearest ? (kClasses - 0.01f) / (furthest - nearest) : 0.0f;
-    const auto class_of = [&](std::uint32_t row) {
-      return std::min<std::size_t>(kClasses - 1,
-                                   static_cast<std::size_t>(scale * (distances[row] - nearest)));
-    };
-    std::array<std::uint32_t, kClasses + 1> begin{};
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
-      if (is_live(row)) ++begin[class_of(row) + 1];
-    for (std::size_t i = 0; i < kClasses; ++i) begin[i + 1] += begin[i];
-    std::vector<std::uint32_t> seeds(live_count_);
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row)
-      if (is_live(row)) seeds[begin[class_of(row)]++] = row;
-    return seeds;
-  }
-
   /// Grows slabs from the seeds in their order, and keeps those of `least` simplices. What is left are the
   /// seeds that are in none.
   void keep_slabs(std::vector<std::uint32_t>& seeds, std::size_t least) {
@@ -304,10 +316,11 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     if (find_determinants && mean < kThinSlabs)
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
-    if (!find_determinants) return partitioner.run(mean);
+    std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
+    if (!find_determinants) return partitioner.run(mean, std::move(seeds));
     // Slabs are one thread's work: another one may find the determinants, which will be wanted anyway.
     DualFacets facets;
-    do_beside([&] { facets = partitioner.run(mean); }, [&] { find_determinants(); });
+    do_beside([&] { facets = partitioner.run(mean, std::move(seeds)); }, [&] { find_determinants(); });
     return facets;
   });
 }
