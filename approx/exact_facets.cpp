@@ -1,6 +1,7 @@
 #include "approx/exact_facets.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "approx/coplanar_merge.h"
 #include "core/determinants.h"
@@ -36,6 +37,11 @@ std::vector<std::uint8_t> find_shifted(const GrowthWork& work) {
 
 void solve_outwards(SimplicialComplex& complex, const double* points,
                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
+  if (complex.rank == 1) {
+    for (std::size_t row = 0; row < complex.row_count; ++row)
+      determinants[row] = std::abs(1.0 / complex.planes[row]);
+    return;
+  }
   solve_simplices(complex, points, is_shifted, determinants);
   turn_outwards(determinants);
 }

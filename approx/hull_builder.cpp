@@ -169,12 +169,9 @@ class HullBuilder {
 
   void find_determinants(std::span<const std::uint8_t> is_shifted) {
     const Clock::time_point start = Clock::now();
-    const std::size_t rows = complex().row_count;
-    determinants_ = HugeArray<double>(rows);
-    const std::span<double> all(determinants_.data(), rows);
-    if (frame_.rank == 1) {
-      for (std::size_t row = 0; row < rows; ++row) all[row] = std::abs(1.0 / complex().planes[row]);
-    } else if (clusters_.count > 0 && is_shifted.empty()) {
+    determinants_ = HugeArray<double>(complex().row_count);
+    const std::span<double> all(determinants_.data(), complex().row_count);
+    if (clusters_.count > 0 && is_shifted.empty()) {
       chain_outwards(complex(), growth_->coordinates(), points_.rows, all);
     } else {
       solve_outwards(complex(), growth_->coordinates(), is_shifted, all);
@@ -384,7 +381,7 @@ class HullBuilder {
   Hull hull_;
   Frame frame_;
   std::optional<CertifiedGrowth> growth_;
-  bool is_bounded_ = true;  // by the planes that were chosen for volume
+  bool is_bounded_ = true;  // by planes chosen for volume
   std::optional<StarHull> star_hull_;
   FacetClusters clusters_;  // of an approximate hull; none: coplanar simplices are merged
   HugeArray<double> determinants_;
