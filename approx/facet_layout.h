@@ -50,6 +50,11 @@ struct FacetLayout {
   FacetId facet_of(SimplexId simplex) const {
     return simplex.value < in_place ? FacetId{simplex.value} : facet_of_others[simplex.value - in_place];
   }
+  /// Of the complex that lay_out has put in order: the dual plane of a facet.
+  const double* plane_of(const SimplicialComplex& complex, FacetId facet) const {
+    return (planes.data() != nullptr ? planes : complex.planes).data() +
+           std::size_t{facet.value} * complex.rank;
+  }
   std::span<const SimplexId> simplices_of(FacetId facet) const {
     if (facet.value < simplicial) return {simplices.data() + facet.value, 1};
     const std::size_t merged = facet.value - simplicial;

@@ -45,7 +45,8 @@ void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& l
 }
 
 /// Do the normals of these facets span all dimensions? Gram-Schmidt, done as soon as they do.
-bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_t> incident) {
+bool normals_span(const SimplicialComplex& complex, const FacetLayout& layout,
+                  std::span<const std::uint32_t> incident) {
   // Normals closer than this to the span of others are taken to lie in it: merged planes agree with the true
   // ones to about the merging tolerance over the facet's size.
   constexpr double kIndependent = 1e-9;
@@ -53,7 +54,7 @@ bool normals_span(const SimplicialComplex& complex, std::span<const std::uint32_
   Eigen::MatrixXd found(size, size);
   Eigen::Index count = 0;
   for (const std::uint32_t facet : incident) {
-    Vector normal = ConstRow(complex.plane(SimplexId{facet}).data(), size).normalized();
+    Vector normal = ConstRow(layout.plane_of(complex, FacetId{facet}), size).normalized();
     for (int pass = 0; pass < 2; ++pass) {
       normal -= found.leftCols(count) * (found.leftCols(count).transpose() * normal);
     }
@@ -93,7 +94,7 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
       around.push_back(incidences[end].second);
     }
     facets_at[incidences[begin].first] = static_cast<std::uint32_t>(around.size());
-    if (!normals_span(complex, around)) continue;
+    if (!normals_span(complex, layout, around)) continue;
     is_vertex[incidences[begin].first] = true;
     for (const std::uint32_t facet : around) ++found[facet - layout.simplicial];
   }
