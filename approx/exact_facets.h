@@ -17,7 +17,7 @@ inline constexpr double kShiftsInPlane = 4.0;
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work);
 
 /// solve_simplices, with the sign turned so that volumes are positive: the rows' common orientation may be
-/// either. The same shapes and cost.
+/// either. The same shapes and cost; in one dimension from the planes.
 void solve_outwards(SimplicialComplex& complex, const double* points,
                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 

@@ -172,28 +172,6 @@ MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> 
   return sums;
 }
 
-}  // namespace
-
-ScaledFactor scale_factor(std::span<const double> gradient_factor) {
-  ScaledFactor scaled{{gradient_factor.begin(), gradient_factor.end()}};
-  double largest = 0.0;
-  for (const double entry : gradient_factor) largest = std::max(largest, std::abs(entry));
-  std::frexp(largest, &scaled.exponent);
-  for (double& entry : scaled.factor) entry = std::ldexp(entry, -scaled.exponent);
-  return scaled;
-}
-
-FacetLayout simplicial_layout(const SimplicialComplex& complex) {
-  FacetLayout layout;
-  layout.regular = layout.in_place = layout.simplicial = layout.facets = complex.row_count;
-  layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
-  layout.simplices.resize(complex.row_count);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) layout.simplices[row] = SimplexId{row};
-  return layout;
-}
-
-namespace {
-
 /// No row moves: facets get planes of their own.
 void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& clusters,
                        const ClusterPlaces& places, FacetLayout& layout) {
@@ -213,6 +191,24 @@ void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& cl
 }
 
 }  // namespace
+
+ScaledFactor scale_factor(std::span<const double> gradient_factor) {
+  ScaledFactor scaled{{gradient_factor.begin(), gradient_factor.end()}};
+  double largest = 0.0;
+  for (const double entry : gradient_factor) largest = std::max(largest, std::abs(entry));
+  std::frexp(largest, &scaled.exponent);
+  for (double& entry : scaled.factor) entry = std::ldexp(entry, -scaled.exponent);
+  return scaled;
+}
+
+FacetLayout simplicial_layout(const SimplicialComplex& complex) {
+  FacetLayout layout;
+  layout.regular = layout.in_place = layout.simplicial = layout.facets = complex.row_count;
+  layout.merged_begin.push_back(static_cast<std::uint32_t>(complex.row_count));
+  layout.simplices.resize(complex.row_count);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) layout.simplices[row] = SimplexId{row};
+  return layout;
+}
 
 FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
                     std::span<const double> gradient_factor) {
