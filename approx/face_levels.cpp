@@ -1,7 +1,8 @@
 #include "approx/face_levels.h"
-#include "core/prefetch.h"
 
 #include <algorithm>
+
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {

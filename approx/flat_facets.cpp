@@ -1,9 +1,10 @@
 #include "approx/flat_facets.h"
-#include "core/prefetch.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {

@@ -112,6 +112,7 @@ class HullBuilder {
   void detail(std::string_view name, Clock::time_point since) {
     hull_.statistics.detail_seconds.emplace_back(name, seconds_since(since));
   }
+
   void describe_input() {
     hull_.dimension = frame_.dimension;
     hull_.rank = frame_.rank;
@@ -151,10 +152,11 @@ class HullBuilder {
 
   void merge() {
     const std::vector<std::uint8_t> is_shifted = find_shifted(growth_->work());
-    if (determinants_.data() == nullptr) find_determinants(is_shifted);
+    hull_.is_approximate = clusters_.count > 0;
+    // Those that merging has asked for have fewer digits than exact hulls promise.
+    if (determinants_.data() == nullptr || !hull_.is_approximate) find_determinants(is_shifted);
     const std::span<double> determinants(determinants_.data(), complex().row_count);
     const Clock::time_point merge_start = Clock::now();
-    hull_.is_approximate = clusters_.count > 0;
     // Without a shifted point every decision was clearer than the shift: all ridges are convex. Who asks for
     // a number of facets gets no simplices instead.
     const bool may_merge = !options_.triangulate || options_.accuracy.facets > 0;
@@ -170,12 +172,8 @@ class HullBuilder {
   void find_determinants(std::span<const std::uint8_t> is_shifted) {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex().row_count);
-    const std::span<double> all(determinants_.data(), complex().row_count);
-    if (clusters_.count > 0 && is_shifted.empty()) {
-      chain_outwards(complex(), growth_->coordinates(), points_.rows, all);
-    } else {
-      solve_outwards(complex(), growth_->coordinates(), is_shifted, all);
-    }
+    solve_outwards(complex(), growth_->coordinates(), is_shifted,
+                   {determinants_.data(), complex().row_count});
     detail("volumes", start);
   }
 

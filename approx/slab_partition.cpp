@@ -87,7 +87,7 @@ class Partitioner {
     return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
   }
 
-  /// All simplices, none of them taken.
+  /// All simplices, no live one of them taken.
   DualFacets take_marks() { return std::move(facets_); }
 
   /// Live rows, those whose planes are nearest to the centre first.
@@ -318,7 +318,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
     if (!find_determinants) return partitioner.run(mean, std::move(seeds));
-    // Slabs are one thread's work: another one may find the determinants, which will be wanted anyway.
+    // Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
     DualFacets facets;
     do_beside([&] { facets = partitioner.run(mean, std::move(seeds)); }, [&] { find_determinants(); });
     return facets;

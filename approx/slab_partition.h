@@ -17,8 +17,7 @@ namespace ndhull {
 /// simplices that they were found from stars (approx/thin_slabs.h), which joining would hardly make fewer.
 ///
 /// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank. find_determinants: asked
-///         for where slabs are found from stars, and where there is a thread for it. None: no stars are
-///         looked for; so where a point was shifted.
+///         for once, unless nothing is returned. None: no stars are looked for; so where a point was shifted.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
 /// Cost      each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not

@@ -95,15 +95,17 @@ class ThinPartitioner {
   /// Which neighbours are less than the width below each row's own plane. Points above are not looked at
   /// here: they leave less.
   void find_stars() {
-    const FloatPoints points(D, {coordinates_, dots_.size() * D});
+    // Of more points than simplices a second table would take memory that no limit knows of.
+    std::optional<FloatPoints> points;
+    if (dots_.size() <= row_count_) points.emplace(D, std::span(coordinates_, dots_.size() * D));
     for_each_block(row_count_, kStarsInBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin; first < end; first += kStarsAtATime)
-        find_some_stars(points, static_cast<std::uint32_t>(first),
+        find_some_stars(points ? &*points : nullptr, static_cast<std::uint32_t>(first),
                         static_cast<std::uint32_t>(std::min(first + kStarsAtATime, end)));
     });
   }
 
-  void find_some_stars(const FloatPoints& points, std::uint32_t begin, std::uint32_t end) {
+  void find_some_stars(const FloatPoints* points, std::uint32_t begin, std::uint32_t end) {
     std::array<std::uint32_t, kStarsAtATime * D> across{};
     std::array<double, kStarsAtATime> least;
     std::array<ProductBits, kStarsAtATime> bits;
@@ -116,8 +118,14 @@ class ThinPartitioner {
         across[(row - begin) * D + k] = is_open ? vertex_across(row, k) : 0u;
       least[row - begin] = is_open ? 1.0 - width_ * planes_.length_of(plane_of(row)) : kNothingFits;
     }
-    compare_products(points, plane_of(begin), across.data(), std::span(least).first(end - begin),
-                     std::span(bits).first(end - begin));
+    if (points != nullptr) {
+      compare_products(*points, plane_of(begin), across.data(), std::span(least).first(end - begin),
+                       std::span(bits).first(end - begin));
+    } else {
+      constexpr auto kAll = static_cast<std::uint16_t>((1u << D) - 1);
+      for (std::size_t i = 0; i < end - begin; ++i)
+        bits[i] = {0, least[i] == kNothingFits ? std::uint16_t{0} : kAll};
+    }
     for (std::uint32_t row = begin; row < end; ++row) {
       const ProductBits& found = bits[row - begin];
       unsigned fitting = found.at_least;

@@ -11,17 +11,19 @@
 
 namespace ndhull {
 
-/// The determinants of all rows of a complex (solve_simplices), with signs that make volumes positive.
+/// The determinants of all rows of a complex (chain_outwards), with signs that make volumes positive.
 using FindDeterminants = std::function<std::span<const double>()>;
 
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
 ///
-/// Shapes  facets: of `complex`, with each simplex' mix, and none in a facet. coordinates: points x rank, in
-///         the frame. gradient_factor: rank x rank. find_determinants: asked for once.
+/// Shapes  facets: of `complex`, with each row's mark: taken are the free ones alone. coordinates: points x
+///         rank, in the frame, of all points that the space may name. gradient_factor: rank x rank.
+///         find_determinants: asked for once.
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
-/// Cost      rank products and rank random reads of 8 bytes a simplex, by all threads; then some random reads
+/// Cost      rank products and rank random reads of 2 bytes (4 where
+///           points are many) a simplex, by all threads; then some random reads
 ///           for each. Where the hull is not convex, a product of a direction with all points left out for
 ///           each slab tried.
 DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,

@@ -254,7 +254,7 @@ class DeterminantChain {
     const std::uint32_t across = static_cast<Mix>(mixes_[row] ^ mixes_[other] ^ vertex);
     const double own = depth_below<D>(plane_of(other), points_ + std::size_t{vertex} * D);
     const double opposite = depth_below<D>(plane_of(row), points_ + std::size_t{across} * D);
-    if (own >= kLeastDepth && opposite >= kLeastDepth) {
+    if (own >= kLeastDepth && opposite >= kLeastDepth && determinants_[other] != 0.0) {
       determinants_[row] = determinants_[other] * own / opposite;
     } else {
       const auto alone = static_cast<std::uint32_t>(row);

@@ -37,6 +37,34 @@ TEST(ApproximateHullLaw, WidthIsMet) {
   }
 }
 
+std::vector<double> sorted_areas(const Hull& hull) {
+  std::vector<double> areas;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) areas.push_back(hull.area_of(FacetId{row}));
+  std::sort(areas.begin(), areas.end());
+  return areas;
+}
+
+// Widths below which nothing merges leave the exact hull.
+TEST(ApproximateHullLaw, WidthsThatMergeNothingGiveTheExactHull) {
+  for (const char* words : {"200 s D5 t1", "80 s D8 t1"}) {
+    SCOPED_TRACE(words);
+    const PointSet set = rbox(words);
+    HullOptions options;
+    options.accuracy.width = {1e-7, true};
+    const Hull hull = hull_of(set, options), exact = hull_of(set, HullOptions());
+    ASSERT_EQ(hull.facet_count(), exact.facet_count());
+    EXPECT_FALSE(hull.is_approximate);
+    EXPECT_NEAR(hull.volume, exact.volume, 1e-14 * exact.volume);
+    EXPECT_NEAR(hull.area, exact.area, 1e-14 * exact.area);
+    // Points are added in another order, and the vertices of thin simplices eliminated in it.
+    const std::vector<double> areas = sorted_areas(hull), exact_areas = sorted_areas(exact);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      worst = std::max(worst, std::abs(areas[i] / exact_areas[i] - 1.0));
+    EXPECT_LT(worst, 1e-11);
+  }
+}
+
 // What is left out makes simplices that are facets alone wider than asked: growth has to add it, and once.
 TEST(ApproximateHullLaw, WidthIsMetWhereNearlyAsMuchIsLeftOut) {
   struct Case {

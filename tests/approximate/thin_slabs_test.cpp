@@ -26,11 +26,13 @@ struct ThinSlabs {
     for (std::size_t k = 0; k < rank; ++k) factor[k * rank + k] = 1.0;
     solve_outwards(sphere.work.complex, sphere.coordinates.data(), {}, determinants);
   }
-  DualFacets find(double width, const WidthSpace& space, PointsAbove above) const {
+  /// `coordinates`: of all points of the space. `marked_points`: so many the marks have room for.
+  DualFacets find(double width, const WidthSpace& space, PointsAbove above,
+                  const std::vector<double>& coordinates, std::size_t marked_points) const {
     DualFacets open;
     open.complex = &sphere.work.complex;
     open.facet_of = HugeArray<std::uint32_t>(sphere.work.complex.row_count);
-    open.marks = SimplexMarks(sphere.work.complex.row_count, sphere.work.point_count);
+    open.marks = SimplexMarks(sphere.work.complex.row_count, marked_points);
     for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
       std::uint32_t mix = 0;
       for (const PointId id : sphere.work.complex.vertices(SimplexId{row})) mix ^= id.value;
@@ -38,10 +40,12 @@ struct ThinSlabs {
       if (!sphere.is_live(row)) open.facet_of[row] = kNone;
     }
     return partition_into_thin_slabs(
-        space, sphere.coordinates.data(), factor, above, width,
+        space, coordinates.data(), factor, above, width,
         [this] { return std::span<const double>(determinants); }, std::move(open));
   }
-  DualFacets find(double width) const { return find(width, *sphere.space, PointsAbove::kNoPoint); }
+  DualFacets find(double width, std::size_t marked_points = 1000) const {
+    return find(width, *sphere.space, PointsAbove::kNoPoint, sphere.coordinates, marked_points);
+  }
 
   GrownSphere sphere;
   std::size_t rank;
@@ -111,6 +115,29 @@ TEST(ThinSlabsLaw, EachSimplexIsInOneConnectedSlab) {
   }
 }
 
+TEST(ThinSlabsLaw, AreTheSameWithMarksForManyPoints) {
+  const ThinSlabs slabs("120 s D7 t3");
+  const DualFacets few = slabs.find(0.02), many = slabs.find(0.02, 40'000);
+  EXPECT_EQ(few.seeds, many.seeds);
+  for (std::uint32_t row = 0; row < slabs.sphere.work.complex.row_count; ++row)
+    EXPECT_EQ(few.facet_of[row], many.facet_of[row]);
+}
+
+/// More points than simplices: no table of them in single precision is made.
+TEST(ThinSlabsLaw, AreTheSameWithManyPointsInside) {
+  const ThinSlabs slabs("60 s D3 t2");
+  const std::size_t vertices = slabs.sphere.work.point_count;
+  std::vector<double> coordinates(3 * slabs.sphere.work.complex.row_count);
+  std::copy_n(slabs.sphere.coordinates.begin(), 3 * vertices, coordinates.begin());
+  std::vector<PointId> ids;
+  for (std::uint32_t id = 0; id < vertices; ++id) ids.push_back(PointId{id});
+  const std::size_t points = slabs.sphere.work.complex.row_count + 1;
+  coordinates.resize(3 * points);
+  const WidthSpace space(3, slabs.factor, coordinates.data(), points, ids, {});
+  const DualFacets many = slabs.find(0.02, space, PointsAbove::kNoPoint, coordinates, points);
+  EXPECT_EQ(slabs.find(0.02).seeds, many.seeds);
+}
+
 TEST(ThinSlabsLaw, SlabsOfOneSimplexHaveNoNeighbourToPairWith) {
   const ThinSlabs slabs("120 s D7 t3");
   const double width = 0.02;
@@ -166,11 +193,14 @@ TEST(ThinSlabsLaw, PointsLeftOutAreBelowThePlanesToo) {
   const WidthSpace space(slabs.rank, slabs.factor, coordinates.data(), coordinates.size() / slabs.rank,
                          vertices, others);
   const double width = 0.02;
-  const DualFacets known = slabs.find(width), facets = slabs.find(width, space, PointsAbove::kLeftOut);
+  const auto find = [&](double below) {
+    return slabs.find(below, space, PointsAbove::kLeftOut, coordinates, coordinates.size() / slabs.rank);
+  };
+  const DualFacets known = slabs.find(width), facets = find(width);
   EXPECT_TRUE(facets.all_fit);
   for (const double found : widths_of(sphere, facets, outside)) EXPECT_LE(found, width * (1.0 + 1e-9));
   EXPECT_GT(facets.count(), known.count());
-  EXPECT_FALSE(slabs.find(0.001, space, PointsAbove::kLeftOut).all_fit);
+  EXPECT_FALSE(find(0.001).all_fit);
 }
 
 TEST(ThinSlabsExample, NeighboursOnACirclePairBelowALineBetweenTheirs) {
