@@ -347,7 +347,9 @@ FacetClusters Approximation::run_width() {
     if (slabs && is_final(*slabs)) {
       hull_.chosen.outside_width = outside_width;
       hull_.chosen.slab_width = slab;
-      return clusters_of(*slabs);
+      FacetClusters clusters = clusters_of(std::move(*slabs));
+      if (!growth_.work().shifted_points.empty()) clusters.keep_planes(growth_.work().complex);
+      return clusters;
     }
     covering = cover_width(slab, std::move(slabs));
     if (covering.planes.empty()) return FacetClusters{};

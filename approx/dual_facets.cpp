@@ -7,7 +7,6 @@
 
 #include "core/blocks.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
 
 namespace ndhull {
 
@@ -42,7 +41,7 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   constexpr std::size_t kFacetsAtATime = 64;
   const SimplicialComplex& complex = *facets.complex;
   Covering covering;
-  covering.facet_of.assign(facets.facet_of.data(), facets.facet_of.data() + complex.row_count);
+  covering.facet_of = facets.facet_of;
   covering.planes.resize(facets.count());
   const FacetMembers members(covering);
   struct MeasureScratch {
@@ -78,28 +77,27 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   return covering;
 }
 
-FacetClusters clusters_of(const DualFacets& facets) {
-  const std::size_t rank = facets.complex->rank, rows = facets.complex->row_count;
-  const std::uint32_t* const facet_of = facets.facet_of.data();
-  std::vector<std::uint32_t> cluster(facets.count(), 0);  // simplices first, then which cluster
-  for (std::size_t row = 0; row < rows; ++row)
-    if (facet_of[row] != kNone) ++cluster[facet_of[row]];
+FacetClusters clusters_of(DualFacets facets) {
   FacetClusters clusters;
+  clusters.cluster_of = std::move(facets.facet_of);
+  std::vector<std::uint32_t> cluster(facets.count(), 0);  // simplices first, then which cluster
+  for (const std::uint32_t facet : clusters.cluster_of)
+    if (facet != kNone) ++cluster[facet];
   for (std::size_t facet = 0; facet < facets.count(); ++facet) {
     const bool is_cluster = cluster[facet] > 1 || facets.own_plane[facet] != kNone;
-    cluster[facet] = is_cluster ? clusters.count++ : kNone;
+    cluster[facet] = is_cluster ? clusters.count : kNone;
+    // No cluster has a larger number than its facet.
+    facets.seeds[clusters.count] = facets.seeds[facet];
+    facets.own_plane[clusters.count] = facets.own_plane[facet];
+    clusters.count += is_cluster ? 1u : 0u;
   }
-  clusters.planes.reserve(clusters.count * rank);
-  constexpr std::size_t kAhead = 16;  // planes are anywhere in memory
-  for (std::size_t facet = 0; facet < facets.count(); ++facet) {
-    prefetch(facets.plane(std::min(facet + kAhead, facets.count() - 1)).data(), rank);
-    if (cluster[facet] == kNone) continue;
-    const std::span<const double> plane = facets.plane(facet);
-    clusters.planes.insert(clusters.planes.end(), plane.begin(), plane.end());
-  }
-  clusters.cluster_of.resize(rows);
-  std::transform(facet_of, facet_of + rows, clusters.cluster_of.begin(),
-                 [&](std::uint32_t facet) { return facet == kNone ? kNone : cluster[facet]; });
+  facets.seeds.resize(clusters.count);
+  facets.own_plane.resize(clusters.count);
+  clusters.seeds = std::move(facets.seeds);
+  clusters.own_plane = std::move(facets.own_plane);
+  clusters.planes = std::move(facets.own_planes);
+  for (std::uint32_t& facet : clusters.cluster_of)
+    if (facet != kNone) facet = cluster[facet];
   return clusters;
 }
 

@@ -23,7 +23,7 @@ namespace ndhull {
 /// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
 struct DualFacets {
   const SimplicialComplex* complex = nullptr;
-  HugeArray<std::uint32_t> facet_of;     ///< per row of the complex; kNone: a free row
+  std::vector<std::uint32_t> facet_of;   ///< per row of the complex; kNone: a free row
   SimplexMarks marks;                    ///< of each row; taken: in a facet, or a free row
   std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
   std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
@@ -91,6 +91,6 @@ class PlaneTops {
 Covering covering_of(const DualFacets& facets, const WidthSpace& space);
 
 /// The same facets as they are put in order: only the directions of their planes count then.
-FacetClusters clusters_of(const DualFacets& facets);
+FacetClusters clusters_of(DualFacets facets);
 
 }  // namespace ndhull

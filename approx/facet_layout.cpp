@@ -180,7 +180,7 @@ void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& cl
   layout.planes = HugeArray<double>(layout.facets * rank);
   const auto plane_of = [&](std::size_t facet) {
     if (facet < layout.simplicial) return complex.plane(layout.simplices[facet]).data();
-    return clusters.planes.data() + std::size_t{places.cluster_at[facet - layout.simplicial]} * rank;
+    return clusters.plane_of(complex, places.cluster_at[facet - layout.simplicial]);
   };
   for_each_block(layout.facets, kPlanesInBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t facet = begin; facet < end; ++facet) {
@@ -191,6 +191,25 @@ void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& cl
 }
 
 }  // namespace
+
+std::vector<double> FacetClusters::planes_of(const SimplicialComplex& complex) const {
+  std::vector<double> all(count * complex.rank);
+  for (std::uint32_t cluster = 0; cluster < count; ++cluster)
+    std::copy_n(plane_of(complex, cluster), complex.rank, all.data() + cluster * complex.rank);
+  return all;
+}
+
+void FacetClusters::move_rows(std::span<const RowMove> moves, std::size_t row_count) {
+  if (cluster_of.empty()) return;
+  for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
+  cluster_of.resize(row_count);
+  for (std::uint32_t& seed : seeds) {
+    if (seed < row_count) continue;
+    // The last rows go first.
+    const auto is_later = [](const RowMove& move, std::uint32_t row) { return move.from > row; };
+    seed = std::lower_bound(moves.begin(), moves.end(), seed, is_later)->to;
+  }
+}
 
 ScaledFactor scale_factor(std::span<const double> gradient_factor) {
   ScaledFactor scaled{{gradient_factor.begin(), gradient_factor.end()}};
@@ -240,6 +259,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
       [&] { sums = sum_merged(complex, determinants, clusters, places, scaled.factor); });
   layout.area_vectors = std::move(sums.area_vectors);
   layout.merged_surface = std::accumulate(sums.surface.begin(), sums.surface.end(), 0.0);
+  const std::vector<double> planes = clusters.planes_of(complex);  // seeds are about to move
   const auto rows = std::span<const std::uint32_t>(old_of_new).first(layout.simplicial);
   take_rows({complex.planes.data(), complex.row_count * rank}, rank, rows);
   take_rows(determinants, 1, rows);
@@ -247,7 +267,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   for (std::size_t m = 0; m < clusters.count; ++m) {
     const std::size_t row = layout.simplicial + m;
     determinants[row] = sums.determinants[m];
-    std::copy_n(clusters.planes.data() + std::size_t{places.cluster_at[m]} * rank, rank,
+    std::copy_n(planes.data() + std::size_t{places.cluster_at[m]} * rank, rank,
                 complex.planes.data() + row * rank);
   }
   permute_topology(complex, old_of_new, layout.facets);

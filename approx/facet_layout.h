@@ -15,8 +15,28 @@ namespace ndhull {
 /// Facets of more than one simplex, as merging finds them.
 struct FacetClusters {
   std::vector<std::uint32_t> cluster_of;  ///< per row of the complex; FacetId::kNone: a facet of its own
-  std::vector<double> planes;             ///< count x rank, dual planes in the frame
   std::uint32_t count = 0;
+  /// Rows x rank, dual planes in the frame: one a cluster, or as `own_plane` says.
+  std::vector<double> planes;
+  /// Per cluster: the row of `planes` that is its plane; FacetId::kNone: that of the simplex seeds[cluster]
+  /// is. Empty: each has the row with its number.
+  std::vector<std::uint32_t> own_plane, seeds;
+
+  const double* plane_of(const SimplicialComplex& complex, std::uint32_t cluster) const {
+    const std::uint32_t own = own_plane.empty() ? cluster : own_plane[cluster];
+    return own == FacetId::kNone ? complex.plane(SimplexId{seeds[cluster]}).data()
+                                 : planes.data() + std::size_t{own} * complex.rank;
+  }
+  /// All planes, count x rank.
+  std::vector<double> planes_of(const SimplicialComplex& complex) const;
+  /// Those of the simplices too, which may be solved again.
+  void keep_planes(const SimplicialComplex& complex) {
+    planes = planes_of(complex);
+    own_plane.clear();
+    seeds.clear();
+  }
+  /// As compact has moved rows, of which there are now so many.
+  void move_rows(std::span<const RowMove> moves, std::size_t row_count);
 };
 
 /// How the rows of a complex group into facets. What is simple needs no table:

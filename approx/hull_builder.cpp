@@ -89,15 +89,15 @@ class HullBuilder {
     }
     const Clock::time_point merge_start = Clock::now();
     KnownHighest known = growth_->take_known_highest();
-    for (const RowMove& move : compact(complex())) {
-      if (!clusters_.cluster_of.empty()) clusters_.cluster_of[move.to] = clusters_.cluster_of[move.from];
+    const std::vector<RowMove> moves = compact(complex());
+    clusters_.move_rows(moves, complex().row_count);
+    for (const RowMove& move : moves) {
       if (determinants_.data() != nullptr) determinants_[move.to] = determinants_[move.from];
       if (known.highest.empty()) continue;
       known.highest[move.to] = known.highest[move.from];
       std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
                   known.normals.data() + move.to * frame_.dimension);
     }
-    if (!clusters_.cluster_of.empty()) clusters_.cluster_of.resize(complex().row_count);
     merge();
     if (!is_bounded_) return for_width_instead();
     if (clusters_.count > 0) known = KnownHighest();  // facets are no longer the rows

@@ -49,7 +49,7 @@ class Partitioner {
         planes_(complex, space, factor, above, width),
         dots_(space.point_count()) {
     facets_.complex = &complex;
-    facets_.facet_of = HugeArray<std::uint32_t>(complex.row_count);
+    facets_.facet_of.resize(complex.row_count);
     facets_.marks = SimplexMarks(complex.row_count, space.point_count());
     for_each_block(complex.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
       for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {

@@ -31,7 +31,7 @@ struct ThinSlabs {
                   const std::vector<double>& coordinates, std::size_t marked_points) const {
     DualFacets open;
     open.complex = &sphere.work.complex;
-    open.facet_of = HugeArray<std::uint32_t>(sphere.work.complex.row_count);
+    open.facet_of.resize(sphere.work.complex.row_count);
     open.marks = SimplexMarks(sphere.work.complex.row_count, marked_points);
     for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
       std::uint32_t mix = 0;
