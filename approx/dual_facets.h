@@ -90,7 +90,8 @@ class PlaneTops {
 /// Cost  for each facet of several simplices a product of a direction with all points.
 Covering covering_of(const DualFacets& facets, const WidthSpace& space);
 
-/// The same facets as they are put in order: only the directions of their planes count then.
+/// The same facets as they are put in order: only the directions of their planes count then. Their planes are
+/// those of their seeds, where they have none of their own: not copied.
 FacetClusters clusters_of(DualFacets facets);
 
 }  // namespace ndhull

@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/id_rows.h"
+
 namespace ndhull {
-namespace {
-
-template <class To>
-std::span<const To> as_ids(std::span<const std::uint32_t> values) {
-  return {reinterpret_cast<const To*>(values.data()), values.size()};
-}
-
-}  // namespace
 
 std::string_view to_string(Phase phase) {
   switch (phase) {

@@ -8,6 +8,7 @@
 #include "approx/gradient_length.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/id_rows.h"
 #include "core/plane_kernels.h"
 #include "core/prefetch.h"
 

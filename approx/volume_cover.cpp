@@ -41,8 +41,8 @@ ExactFacets list_facets(const SimplicialComplex& complex, std::span<const double
   facets.planes.resize(static_cast<Index>(facets.volumes.size()), rank);
   Index next = static_cast<Index>(exact.count);
   for (Index cluster = 0; cluster < next; ++cluster)
-    facets.planes.row(cluster) =
-        Eigen::Map<const Eigen::RowVectorXd>(exact.plane_of(complex, static_cast<std::uint32_t>(cluster)), rank);
+    facets.planes.row(cluster) = Eigen::Map<const Eigen::RowVectorXd>(
+        exact.plane_of(complex, static_cast<std::uint32_t>(cluster)), rank);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     if (cluster_of(row) != kNone) continue;
     facets.planes.row(next++) =

@@ -17,4 +17,11 @@ struct IdRows {
   }
 };
 
+/// Values as ids of a kind, which are one such value each.
+template <class To>
+std::span<const To> as_ids(std::span<const std::uint32_t> values) {
+  static_assert(sizeof(To) == sizeof(std::uint32_t));
+  return {reinterpret_cast<const To*>(values.data()), values.size()};
+}
+
 }  // namespace ndhull

@@ -6,7 +6,8 @@ Libraries   CGAL only in core/exact_orientation.cpp, and there only headers unde
             approx/projection.*; no streams in core and approx: they have no output. (Tests and bench are free.)
 Sources     every .cpp is named in a CMakeLists.txt of its folder or one above; no file has more than 400 lines.
 Headers     a file that uses a type of one of our headers includes it, itself or through what it includes: sources that are
-            compiled as one unit would hide that.
+            compiled as one unit would hide that. For the same reason no file uses a function or a constant that another
+            source keeps in its unnamed namespace.
 Words       no identifier `eps`, no `using namespace std`, no note left open without an issue number.
 """
 
@@ -124,6 +125,37 @@ class Types:
                     yield f"{name}: uses {word} and does not include {header}"
 
 
+class OwnNames:
+    """Functions and constants in the unnamed namespace of a source, for nobody else."""
+
+    UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}", re.MULTILINE | re.DOTALL)
+    FUNCTION = re.compile(r"^[A-Za-z](?:[\w:<>,&*\[\] ]|\n )*?[ >&*](\w+)\(", re.MULTILINE)
+    CONSTANT = re.compile(r"^(?:inline )?const(?:expr)? [^=;{(]*?\b(\w+)(?:\[[^\]]*\])? ?[={]", re.MULTILINE)
+    def __init__(self, types):
+        self.types, self.owners = types, {}
+        for name, text in types.text.items():
+            if name.endswith(".cpp"):
+                for part in self.UNNAMED.findall(text):
+                    for own in self.FUNCTION.findall(part) + self.CONSTANT.findall(part):
+                        self.owners.setdefault(own, set()).add(name)
+
+    def is_declared(self, word, name):
+        """In the file or in what it includes: after a type, as another one of the same type, or by a capture."""
+        declaration = re.compile(rf"[\w>&*\]](?<!return)(?<!else)(?<!case)(?<!throw)\s+[&*]*{word}\b *[({{=;:,\[)]"
+                                 rf"|, {word} *[=\[]|[\[ ,]&?{word}\]")
+        return any(declaration.search(self.types.text.get(file, "")) for file in self.types.reached_from(name))
+
+    def check(self):
+        for name, text in self.types.text.items():
+            if not name.endswith(".cpp"):
+                continue
+            for word in sorted(set(re.findall(r"(?<![\w.>:])\w+", text)) & self.owners.keys()):
+                beside = sorted(owner for owner in self.owners[word] if owner.split("/")[0] == name.split("/")[0])
+                is_used = re.search(rf"(?<![\w.>:]){word}(?:<[^;()]*>)?\(", text) or word.startswith("k")
+                if is_used and beside and name not in beside and not self.is_declared(word, name):
+                    yield f"{name}: uses {word} of {beside[0]}, which keeps it to itself"
+
+
 def main():
     findings = []
     files = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*") if path.suffix in SUFFIXES)
@@ -131,7 +163,9 @@ def main():
         findings.extend(check_file(path))
         if path.suffix == ".cpp":
             findings.extend(check_is_built(path))
-    findings.extend(Types(path for path in files if path.suffix != ".py").check())
+    types = Types(path for path in files if path.suffix != ".py")
+    findings.extend(types.check())
+    findings.extend(OwnNames(types).check())
     print("\n".join(findings) if findings else f"check_layers: {len(files)} files, nothing found")
     return 1 if findings else 0
 

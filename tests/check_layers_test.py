@@ -26,6 +26,12 @@ BROKEN = [
     ({"core/a.h": "#include <iostream>\n"}, "no input and output"),
     ({"core/lost.cpp": "\n"}, "core/lost.cpp: in no CMakeLists.txt"),
     ({"core/a.h": "class Hull {\n};\n", "core/b.h": "Hull hull;\n"}, "core/b.h: uses Hull and does not include core/a.h"),
+    ({"core/CMakeLists.txt": CLEAN["core/CMakeLists.txt"] + "(a.cpp)",
+      "core/a.cpp": "namespace {\n\nint twice(int x) {\n  return 2 * x;\n}\n\n}\n",
+      "core/growth.cpp": "int steps() { return twice(3); }\n"}, "core/growth.cpp: uses twice of core/a.cpp"),
+    ({"core/CMakeLists.txt": CLEAN["core/CMakeLists.txt"] + "(a.cpp)",
+      "core/a.cpp": "namespace {\nconstexpr int kMany = 3;\n}\n",
+      "core/growth.cpp": "int steps() { return kMany; }\n"}, "core/growth.cpp: uses kMany of core/a.cpp"),
     ({"core/a.h": "\n" * 401}, "401 lines"),
     ({"core/a.h": "double area_ep" "s = 0;\n"}, "say roundoff"),
     ({"core/a.h": "using  namespace std;\n"}, "no using namespace std"),
@@ -53,6 +59,12 @@ def main():
     reached = {"core/a.h": "class Hull {\n};\n", "core/b.h": '#include "core/a.h"\n',
                "core/c.h": '#include "core/b.h"\nHull hull;\n', "core/d.h": "class Hull;\nHull* hull;\n"}  # fmt: skip
     code, lines = findings(CLEAN | reached)
+    assert code == 0, lines
+    own = {"core/CMakeLists.txt": CLEAN["core/CMakeLists.txt"] + "(a.cpp b.cpp)",
+           "core/a.cpp": "namespace {\nconstexpr int kMany = 3;\nint twice(int x) {\n  return 2 * x;\n}\n}\n",
+           "core/b.cpp": "int f() {\n  constexpr int kFew = 2, kMany = 4;\n  return kFew * kMany;\n}\n",
+           "core/growth.cpp": "struct Steps {\n  int twice(int);\n};\nint steps() { return Steps().twice(3); }\n"}
+    code, lines = findings(CLEAN | own)
     assert code == 0, lines
     for added, expected in BROKEN:
         code, lines = findings(CLEAN | added)

@@ -149,14 +149,14 @@ TEST(PlaneCheckLaw, LayoutDoesNotChangeTheResult) {
   const std::size_t n = 300;
   const std::vector<double> values = random_values(n * d, 11);
   const std::vector<float> floats(values.begin(), values.end());
-  std::vector<double> rows(floats.begin(), floats.end()), columns(n * d), wide(n * (d + 3), HUGE_VAL);
+  std::vector<double> rows(floats.begin(), floats.end()), by_column(n * d), wide(n * (d + 3), HUGE_VAL);
   for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t k = 0; k < d; ++k) columns[k * n + row] = wide[row * (d + 3) + k] = rows[row * d + k];
+    for (std::size_t k = 0; k < d; ++k) by_column[k * n + row] = wide[row * (d + 3) + k] = rows[row * d + k];
   }
   const std::vector<double> planes = planes_through(rows, d, 77, 12);
   const PlaneCheck expected = check_planes(PointView::row_major(rows.data(), n, d), planes);
   expect_same(expected, check_planes(PointView::row_major(floats.data(), n, d), planes));
-  expect_same(expected, check_planes({columns.data(), n, d, ScalarType::kFloat64, 1, n}, planes));
+  expect_same(expected, check_planes({by_column.data(), n, d, ScalarType::kFloat64, 1, n}, planes));
   expect_same(expected, check_planes({wide.data(), n, d, ScalarType::kFloat64, d + 3, 1}, planes));
 }
 

@@ -1,0 +1,97 @@
+// Which planes clusters have, while rows move under them.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "approx/dual_facets.h"
+#include "approx/exact_facets.h"
+#include "approx/facet_layout.h"
+#include "approx/slab_partition.h"
+#include "tests/approximate/grown_sphere.h"
+
+namespace ndhull {
+namespace {
+
+/// Clusters of a sphere's thin slabs, and what the slabs said of them.
+struct Clustered {
+  explicit Clustered(double width) : sphere("120 s D7 t3", 120) {
+    SimplicialComplex& complex = sphere.work.complex;
+    std::vector<double> factor(complex.rank * complex.rank, 0.0), determinants(complex.row_count);
+    for (std::size_t k = 0; k < complex.rank; ++k) factor[k * complex.rank + k] = 1.0;
+    solve_outwards(complex, sphere.coordinates.data(), {}, determinants);
+    std::optional<DualFacets> facets =
+        partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint,
+                             width, [&] { return std::span<const double>(determinants); });
+    facet_of = facets->facet_of;
+    for (std::size_t facet = 0; facet < facets->count(); ++facet)
+      planes.emplace_back(facets->plane(facet).begin(), facets->plane(facet).end());
+    clusters = clusters_of(std::move(*facets));
+  }
+  std::vector<double> plane_of(std::uint32_t cluster) const {
+    const double* const plane = clusters.plane_of(sphere.work.complex, cluster);
+    return {plane, plane + sphere.work.rank};
+  }
+
+  GrownSphere sphere;
+  std::vector<std::uint32_t> facet_of;
+  std::vector<std::vector<double>> planes;  // of the facets
+  FacetClusters clusters;
+};
+
+TEST(FacetClusters, AreTheFacetsOfSeveralSimplicesAndThoseWithOwnPlanes) {
+  for (const double width : {0.01, 0.05}) {
+    const Clustered found(width);
+    std::map<std::uint32_t, std::uint32_t> cluster_of_facet, size;
+    for (const std::uint32_t facet : found.facet_of)
+      if (facet != kNone) ++size[facet];
+    for (std::uint32_t row = 0; row < found.facet_of.size(); ++row) {
+      const std::uint32_t facet = found.facet_of[row], cluster = found.clusters.cluster_of[row];
+      EXPECT_EQ(facet != kNone && size[facet] > 1, cluster != kNone);
+      if (cluster == kNone) continue;
+      EXPECT_EQ(cluster_of_facet.emplace(facet, cluster).first->second, cluster);
+      EXPECT_EQ(found.plane_of(cluster), found.planes[facet]);
+    }
+    EXPECT_EQ(cluster_of_facet.size(), found.clusters.count);
+    EXPECT_GT(found.clusters.planes.size(), 0u);  // planes between two simplices'
+    EXPECT_LT(found.clusters.planes.size(), found.clusters.count * found.sphere.work.rank);
+  }
+}
+
+TEST(FacetClusters, KeepTheirPlanesWhenRowsMove) {
+  Clustered found(0.01);
+  SimplicialComplex& complex = found.sphere.work.complex;
+  std::vector<std::vector<double>> before;
+  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
+    before.push_back(found.plane_of(cluster));
+  std::vector<std::uint32_t> cluster_of = found.clusters.cluster_of;
+  const std::vector<RowMove> moves = compact(complex);
+  ASSERT_FALSE(moves.empty());
+  found.clusters.move_rows(moves, complex.row_count);
+  for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
+  cluster_of.resize(complex.row_count);
+  EXPECT_EQ(found.clusters.cluster_of, cluster_of);
+  std::size_t moved_seeds = 0;
+  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster) {
+    EXPECT_EQ(found.plane_of(cluster), before[cluster]);
+    for (const RowMove& move : moves) moved_seeds += found.clusters.seeds[cluster] == move.to ? 1u : 0u;
+  }
+  EXPECT_GT(moved_seeds, 0u);
+}
+
+TEST(FacetClusters, KeepTheirPlanesWhenSimplicesAreSolvedAgain) {
+  Clustered found(0.01);
+  SimplicialComplex& complex = found.sphere.work.complex;
+  std::vector<std::vector<double>> before;
+  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
+    before.push_back(found.plane_of(cluster));
+  found.clusters.keep_planes(complex);
+  for (std::size_t i = 0; i < complex.row_count * complex.rank; ++i) complex.planes[i] *= 1.001;
+  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
+    EXPECT_EQ(found.plane_of(cluster), before[cluster]);
+}
+
+}  // namespace
+}  // namespace ndhull
