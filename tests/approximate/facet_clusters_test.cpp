@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "approx/dual_facets.h"
@@ -34,6 +36,11 @@ struct Clustered {
     const double* const plane = clusters.plane_of(sphere.work.complex, cluster);
     return {plane, plane + sphere.work.rank};
   }
+  std::vector<std::vector<double>> planes_of_all() const {
+    std::vector<std::vector<double>> all;
+    for (std::uint32_t cluster = 0; cluster < clusters.count; ++cluster) all.push_back(plane_of(cluster));
+    return all;
+  }
 
   GrownSphere sphere;
   std::vector<std::uint32_t> facet_of;
@@ -63,9 +70,7 @@ TEST(FacetClusters, AreTheFacetsOfSeveralSimplicesAndThoseWithOwnPlanes) {
 TEST(FacetClusters, KeepTheirPlanesWhenRowsMove) {
   Clustered found(0.01);
   SimplicialComplex& complex = found.sphere.work.complex;
-  std::vector<std::vector<double>> before;
-  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
-    before.push_back(found.plane_of(cluster));
+  const std::vector<std::vector<double>> before = found.planes_of_all();
   std::vector<std::uint32_t> cluster_of = found.clusters.cluster_of;
   const std::vector<RowMove> moves = compact(complex);
   ASSERT_FALSE(moves.empty());
@@ -73,24 +78,20 @@ TEST(FacetClusters, KeepTheirPlanesWhenRowsMove) {
   for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
   cluster_of.resize(complex.row_count);
   EXPECT_EQ(found.clusters.cluster_of, cluster_of);
+  EXPECT_EQ(found.planes_of_all(), before);
   std::size_t moved_seeds = 0;
-  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster) {
-    EXPECT_EQ(found.plane_of(cluster), before[cluster]);
-    for (const RowMove& move : moves) moved_seeds += found.clusters.seeds[cluster] == move.to ? 1u : 0u;
-  }
+  for (const std::uint32_t seed : found.clusters.seeds)
+    for (const RowMove& move : moves) moved_seeds += seed == move.to ? 1u : 0u;
   EXPECT_GT(moved_seeds, 0u);
 }
 
 TEST(FacetClusters, KeepTheirPlanesWhenSimplicesAreSolvedAgain) {
   Clustered found(0.01);
   SimplicialComplex& complex = found.sphere.work.complex;
-  std::vector<std::vector<double>> before;
-  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
-    before.push_back(found.plane_of(cluster));
+  const std::vector<std::vector<double>> before = found.planes_of_all();
   found.clusters.keep_planes(complex);
   for (std::size_t i = 0; i < complex.row_count * complex.rank; ++i) complex.planes[i] *= 1.001;
-  for (std::uint32_t cluster = 0; cluster < found.clusters.count; ++cluster)
-    EXPECT_EQ(found.plane_of(cluster), before[cluster]);
+  EXPECT_EQ(found.planes_of_all(), before);
 }
 
 }  // namespace
