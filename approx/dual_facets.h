@@ -14,7 +14,6 @@
 #include "approx/plane_fit.h"
 #include "approx/simplex_marks.h"
 #include "approx/width_space.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/simplicial_complex.h"
 

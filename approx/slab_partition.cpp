@@ -13,6 +13,7 @@
 #include "approx/seed_planes.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/prefetch.h"
 
