@@ -29,7 +29,7 @@ struct DualFacets {
   std::vector<double> own_planes;        ///< planes x rank
   bool all_fit = true;                   ///< no simplex that is a facet alone is thicker than the width
 
-  // What joining facets has to know. Not listed: empty.
+  // What joining facets has to know; tops and lengths are known afterwards too. Not listed: empty.
   std::vector<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
   std::vector<std::uint32_t> begin;    ///< of each facet in `members`, and the end
   /// Of facets of several simplices the different vertices, facet by facet; of others none.

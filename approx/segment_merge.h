@@ -8,12 +8,12 @@
 
 namespace ndhull {
 
-/// Facets of up to `most_simplices` simplices join the neighbour with which they are narrowest below one
-/// plane, if that is less than `width`, the last ones first. The planes tried are those between the two
-/// facets' planes.
+/// Facets of up to `most_simplices` simplices join a neighbour where both are less than `width` below one of
+/// the planes between theirs, the last ones first. Neighbours are tried in the order of what the vertices
+/// across the ridges leave of the segment. The facets have no lists afterwards.
 ///
 /// Shapes  coordinates: point_count x rank, in the frame. gradient_factor: rank x rank.
-/// Order   facets stay in the order of their first member; that of what has joined follows its own.
+/// Order   facets stay in theirs.
 /// Cost    two products for each ridge of the small facets, and for each vertex of the few pairs that may
 /// fit.
 void join_along_segments(const SimplicialComplex& complex, const double* coordinates,

@@ -1,8 +1,8 @@
 // Idea. A slab is grown over neighbours from a seed and takes what no other slab has, so that each simplex is
 // met once; the seed's own plane is its plane, which no point is above where the hull is convex. Two things
-// keep slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And a
-// slab that would hold less than a fifth of what slabs hold on average where nothing is taken is given up at
-// first: most of its simplices will be taken from seeds that lie better.
+// keep slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And
+// seeds most of whose neighbours would be in their slab come before all others: how large a slab becomes
+// shows there already, and what was taken of it as well.
 #include "approx/slab_partition.h"
 
 #include <algorithm>
@@ -27,13 +27,10 @@ constexpr std::size_t kSamples = 64;
 constexpr double kFewSimplices = 65'536.0, kLargeSlabs = 800.0;
 /// Below this mean slabs are found from the stars of all simplices (approx/thin_slabs.h).
 constexpr double kThinSlabs = 16.0;
-/// Parts of that mean which a slab has to hold to be kept, pass by pass, before any is; of hulls that are
-/// small as well the larger ones, whose passes take 5 % off the facets and twice the time.
-constexpr std::array<double, 3> kWorthKeeping{0.6, 0.3, 0.1};
-constexpr double kWorthKeepingOnce = 0.2;
-constexpr std::size_t kSmallHull = 16'384;  // simplices
-/// Of a slab that is given up so many of the simplices, those nearest to its seed, are no seeds either.
-constexpr double kNoSeeds = 0.5;
+/// Of a seed's neighbours so many have to be open and in its slab, pass by pass; at last none.
+template <std::size_t D>
+constexpr std::array<std::size_t, 3> kNeighboursIn{std::min(D, std::max<std::size_t>(5, (3 * D + 4) / 5)), 2,
+                                                   0};
 constexpr std::size_t kPlacesInBlock = 1 << 13;
 /// Classes of seeds by their planes' distance from the centre.
 constexpr std::size_t kClasses = 64;
@@ -128,18 +125,9 @@ class Partitioner {
     return seeds;
   }
 
-  /// `mean`: mean_size(); `seeds`: seeds_by_distance().
-  DualFacets run(double mean, std::vector<std::uint32_t> seeds) {
-    const auto keep_parts = [&](double part) {
-      const auto least = static_cast<std::size_t>(part * mean);
-      if (least > 1) keep_slabs(seeds, least);
-    };
-    if (live_count_ <= kSmallHull) {
-      std::ranges::for_each(kWorthKeeping, keep_parts);
-    } else {
-      keep_parts(kWorthKeepingOnce);
-    }
-    keep_slabs(seeds, 1);
+  /// `seeds`: seeds_by_distance().
+  DualFacets run(std::vector<std::uint32_t> seeds) {
+    for (const std::size_t least : kNeighboursIn<D>) take_slabs(seeds, least);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
     facets_.members.assign(members_.data(), members_.data() + count_);
@@ -248,47 +236,65 @@ class Partitioner {
     facets_.lengths.push_back(static_cast<float>(own.length));
   }
 
-  /// Grows slabs from the seeds in their order, and keeps those of `least` simplices. What is left are the
-  /// seeds that are in none.
-  void keep_slabs(std::vector<std::uint32_t>& seeds, std::size_t least) {
-    if (no_seed_.empty()) no_seed_.resize(complex_.row_count);
-    ++pass_;
+  /// Are so many of the seed's neighbours open at least?
+  bool has_open(std::uint32_t seed, std::size_t least) const {
+    std::size_t open = 0;
+    for (std::size_t k = 0; k < D; ++k) open += facets_.marks.is_taken(row_of(seed)[D + k]) ? 0u : 1u;
+    return open >= least;
+  }
+  /// Are they in the slab too?
+  bool has_in_slab(std::uint32_t seed, std::size_t least, const SeedPlane<D>& own) const {
+    const SimplexMarks& marks = facets_.marks;
+    const std::uint32_t* const row = row_of(seed);
+    const SimplexMarks::Mark mark = marks[seed];
+    for (std::size_t k = 0, found = 0; found < least; ++k) {
+      if (found + D - k < least) return false;
+      const SimplexMarks::Mark neighbour = marks[row[D + k]];
+      if (SimplexMarks::is_taken(neighbour)) continue;
+      found += dot(own.plane, marks.vertex_across(mark, row[k], neighbour)) >= own.least ? 1u : 0u;
+    }
+    return true;
+  }
+
+  /// Grows slabs from the seeds in their order, those with `least` neighbours in their slab. What is left are
+  /// the seeds that are in none.
+  void take_slabs(std::vector<std::uint32_t>& seeds, std::size_t least) {
     std::size_t left = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      facets_.marks.ask_for(seeds[std::min(i + kSeedsAhead, seeds.size() - 1)]);
-      const std::uint32_t soon = seeds[std::min(i + kPlanesAhead, seeds.size() - 1)];
-      if (!facets_.marks.is_taken(soon)) {
-        prefetch(complex_.planes.data() + std::size_t{soon} * D, D);
-        prefetch(row_of(soon), 2 * D);
-      }
+      fetch(seeds, i);
       const std::uint32_t seed = seeds[i];
       if (facets_.marks.is_taken(seed)) continue;
-      if (least > 1 && no_seed_[seed] == pass_) {
-        seeds[left++] = seed;
-        continue;
-      }
-      const Ends begin{count_, vertex_count_};
-      SeedPlane<D> own = planes_.own(seed);
-      const bool fits = planes_.raise_above_points(seed, own);
-      if (fits) {
-        grow(seed, own);
-      } else {
-        members_[count_++] = seed;
-        facets_.marks.set_taken(seed, true);
-      }
-      const std::size_t size = count_ - begin.members;
-      if (size >= least) {
-        add_facet(begin, own);
-        facets_.all_fit = facets_.all_fit && fits;
-        continue;
-      }
-      const auto near = begin.members + 1 + static_cast<std::size_t>(kNoSeeds * static_cast<double>(size));
-      for (std::size_t member = begin.members; member < std::min(near, count_); ++member)
-        no_seed_[members_[member]] = pass_;
-      give_back(begin);
-      seeds[left++] = seed;
+      if (!take_slab(seed, least)) seeds[left++] = seed;
     }
     seeds.resize(left);
+  }
+
+  /// Begins the way from memory of what the seeds after this one are made of.
+  void fetch(std::span<const std::uint32_t> seeds, std::size_t place) const {
+    facets_.marks.ask_for(seeds[std::min(place + kSeedsAhead, seeds.size() - 1)]);
+    const std::uint32_t soon = seeds[std::min(place + kPlanesAhead, seeds.size() - 1)];
+    if (facets_.marks.is_taken(soon)) return;
+    prefetch(complex_.planes.data() + std::size_t{soon} * D, D);
+    prefetch(row_of(soon), 2 * D);
+  }
+
+  bool take_slab(std::uint32_t seed, std::size_t least) {
+    if (!has_open(seed, least)) return false;
+    SeedPlane<D> own = planes_.own(seed);
+    if (!has_in_slab(seed, least, own)) return false;
+    const bool fits = planes_.raise_above_points(seed, own);
+    if (planes_.may_have_points_above() && least > 0 && !(fits && has_in_slab(seed, least, own)))
+      return false;
+    const Ends begin{count_, vertex_count_};
+    if (fits) {
+      grow(seed, own);
+    } else {
+      members_[count_++] = seed;
+      facets_.marks.set_taken(seed, true);
+    }
+    add_facet(begin, own);
+    facets_.all_fit = facets_.all_fit && fits;
+    return true;
   }
 
   const SimplicialComplex& complex_;
@@ -296,9 +302,7 @@ class Partitioner {
   SeedPlanes<D> planes_;
   std::vector<Dot> dots_;  // per point
   std::uint32_t slab_ = 0;
-  HugeArray<std::uint32_t> members_;   // as far as they are listed: count_
-  std::vector<std::uint8_t> no_seed_;  // per row: the last pass that gave up a slab around it
-  std::uint8_t pass_ = 0;
+  HugeArray<std::uint32_t> members_;  // as far as they are listed: count_
   std::size_t live_count_ = 0, count_ = 0, vertex_count_ = 0;
   DualFacets facets_;
 };
@@ -318,10 +322,10 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
-    if (!find_determinants) return partitioner.run(mean, std::move(seeds));
+    if (!find_determinants) return partitioner.run(std::move(seeds));
     // Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
     DualFacets facets;
-    do_beside([&] { facets = partitioner.run(mean, std::move(seeds)); }, [&] { find_determinants(); });
+    do_beside([&] { facets = partitioner.run(std::move(seeds)); }, [&] { find_determinants(); });
     return facets;
   });
 }
