@@ -297,10 +297,10 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
   return facets;
 }
 
-/// Is nothing left to be looked at? All points were seen, and no simplex was too wide alone; facets are many,
-/// so that they bound a region and hardly any two would fit into one slab.
+/// Is nothing left to be looked at? All points were seen, no simplex was too wide alone, the planes bound a
+/// region, and hardly any two facets would fit into one slab.
 bool Approximation::is_final(const DualFacets& facets) const {
-  return facets.all_fit && growth_.left_out().size() <= kFewLeftOut && facets.count() > kSurelyBounded &&
+  return facets.all_fit && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
          !is_worth_joining(facets.count(), growth_.work().complex.row_count - growth_.work().free_count);
 }
 

@@ -232,6 +232,7 @@ class Partitioner {
                                               : kNone);
     if (own.is_fitted)
       facets_.own_planes.insert(facets_.own_planes.end(), own.plane.begin(), own.plane.end());
+    facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
     facets_.tops.push_back(own.top);
     facets_.lengths.push_back(static_cast<float>(own.length));
   }

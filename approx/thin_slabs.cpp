@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -66,6 +67,8 @@ class ThinPartitioner {
     do_beside([&] { take_all_stars(); }, [&] { determinants_ = find_determinants_(); });
     take_pairs();
     take_others();
+    // Planes between two others, and raised ones, are no nearer.
+    facets_.are_far_from_centre = facets_.are_far_from_centre && are_far_from_centre_;
     return std::move(facets_);
   }
 
@@ -118,6 +121,8 @@ class ThinPartitioner {
         across[(row - begin) * D + k] = is_open ? vertex_across(row, k) : 0u;
       least[row - begin] = is_open ? 1.0 - width_ * planes_.length_of(plane_of(row)) : kNothingFits;
     }
+    if (*std::min_element(least.begin(), least.begin() + (end - begin)) <= 0.0)
+      are_far_from_centre_.store(false, std::memory_order_relaxed);
     if (points != nullptr) {
       compare_products(*points, plane_of(begin), across.data(), std::span(least).first(end - begin),
                        std::span(bits).first(end - begin));
@@ -301,6 +306,7 @@ class ThinPartitioner {
       }
       SeedPlane<D> own = planes_.own(row);
       facets_.all_fit = planes_.raise_above_points(row, own) && facets_.all_fit;
+      facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
       add_facet(row, own.is_fitted ? &own.plane : nullptr);
     }
   }
@@ -324,9 +330,10 @@ class ThinPartitioner {
   double width_;
   std::uint32_t row_count_;
   DualFacets facets_;
-  std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
-  std::vector<Dot> dots_;               // per point
-  std::vector<std::uint32_t> members_;  // of the facet that is being grown, but for its seed
+  std::vector<NeighbourBits> fitting_;            // per row: of the neighbours that its slab would take
+  std::vector<Dot> dots_;                         // per point
+  std::atomic<bool> are_far_from_centre_ = true;  // the simplices' planes
+  std::vector<std::uint32_t> members_;            // of the facet that is being grown, but for its seed
 };
 
 }  // namespace

@@ -9,8 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "approx/boundedness.h"
 #include "approx/exact_facets.h"
 #include "approx/slab_partition.h"
+#include "tests/approximate/facet_members.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {
@@ -52,29 +54,6 @@ struct ThinSlabs {
   std::vector<double> factor, determinants;
 };
 
-/// The simplices of each facet: all live ones, each in one, those of a facet connected.
-std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sphere, const DualFacets& facets) {
-  std::vector<std::vector<std::uint32_t>> members(facets.count());
-  for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
-    const std::uint32_t facet = facets.facet_of[row];
-    EXPECT_EQ(facet != kNone, sphere.is_live(row));
-    if (facet < members.size()) members[facet].push_back(row);
-  }
-  for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
-    std::vector<std::uint32_t> met{facets.seeds[facet]};
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
-        if (facets.facet_of[neighbour.value] == facet &&
-            std::find(met.begin(), met.end(), neighbour.value) == met.end())
-          met.push_back(neighbour.value);
-      }
-    }
-    std::sort(met.begin(), met.end());
-    EXPECT_EQ(met, members[facet]);
-  }
-  return members;
-}
-
 /// How thick the facets are below the highest of these points.
 std::vector<double> widths_of(const GrownSphere& sphere, const DualFacets& facets,
                               const std::vector<double>& others) {
@@ -113,6 +92,27 @@ TEST(ThinSlabsLaw, EachSimplexIsInOneConnectedSlab) {
       last = facets.count();
     }
   }
+}
+
+/// The radius is 0.5: planes are nearer to the centre where simplices are large.
+TEST(ThinSlabsLaw, PlanesFarFromTheCentreBoundARegion) {
+  const ThinSlabs slabs("120 s D7 t3");
+  double nearest = HUGE_VAL;
+  for (std::uint32_t row = 0; row < slabs.sphere.work.complex.row_count; ++row) {
+    if (!slabs.sphere.is_live(row)) continue;
+    double length_sq = 0.0;
+    for (const double entry : slabs.sphere.work.complex.plane(SimplexId{row})) length_sq += entry * entry;
+    nearest = std::min(nearest, 1.0 / std::sqrt(length_sq));
+  }
+  for (const double part : {0.05, 0.3, 0.7, 0.99}) {
+    const DualFacets facets = slabs.find(part * nearest);
+    EXPECT_TRUE(facets.are_far_from_centre);
+    std::vector<double> normals;
+    for (std::uint32_t facet = 0; facet < facets.count(); ++facet)
+      normals.insert(normals.end(), facets.plane(facet).begin(), facets.plane(facet).end());
+    EXPECT_TRUE(find_open_direction(normals, slabs.sphere.work.rank).bounded);
+  }
+  EXPECT_FALSE(slabs.find(1.01 * nearest).are_far_from_centre);
 }
 
 TEST(ThinSlabsLaw, AreTheSameWithMarksForManyPoints) {
