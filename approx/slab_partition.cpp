@@ -27,10 +27,11 @@ constexpr std::size_t kSamples = 64;
 constexpr double kFewSimplices = 65'536.0, kLargeSlabs = 800.0;
 /// Below this mean slabs are found from the stars of all simplices (approx/thin_slabs.h).
 constexpr double kThinSlabs = 16.0;
-/// Of a seed's neighbours so many have to be open and in its slab, pass by pass; at last none.
+/// Of a seed's neighbours so many have to be open and in its slab before others are taken, and one more where
+/// slabs hold many simplices: looking longer costs little beside them.
 template <std::size_t D>
-constexpr std::array<std::size_t, 3> kNeighboursIn{std::min(D, std::max<std::size_t>(5, (3 * D + 4) / 5)), 2,
-                                                   0};
+constexpr std::size_t kNeighboursIn = std::min(D, std::max<std::size_t>(5, (3 * D + 4) / 5));
+constexpr double kManySimplices = 64.0;
 constexpr std::size_t kPlacesInBlock = 1 << 13;
 /// Classes of seeds by their planes' distance from the centre.
 constexpr std::size_t kClasses = 64;
@@ -125,9 +126,11 @@ class Partitioner {
     return seeds;
   }
 
-  /// `seeds`: seeds_by_distance().
-  DualFacets run(std::vector<std::uint32_t> seeds) {
-    for (const std::size_t least : kNeighboursIn<D>) take_slabs(seeds, least);
+  /// `mean`: mean_size(); `seeds`: seeds_by_distance().
+  DualFacets run(double mean, std::vector<std::uint32_t> seeds) {
+    const bool are_large = mean > kManySimplices && kNeighboursIn<D> + 1 < D;
+    for (const std::size_t least : {kNeighboursIn<D> + (are_large ? 1 : 0), std::size_t{2}, std::size_t{0}})
+      take_slabs(seeds, least);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
     facets_.members.assign(members_.data(), members_.data() + count_);
@@ -323,10 +326,10 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
-    if (!find_determinants) return partitioner.run(std::move(seeds));
+    if (!find_determinants) return partitioner.run(mean, std::move(seeds));
     // Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
     DualFacets facets;
-    do_beside([&] { facets = partitioner.run(std::move(seeds)); }, [&] { find_determinants(); });
+    do_beside([&] { facets = partitioner.run(mean, std::move(seeds)); }, [&] { find_determinants(); });
     return facets;
   });
 }
