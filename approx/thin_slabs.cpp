@@ -169,7 +169,7 @@ class ThinPartitioner {
       std::size_t count = 0;
       for (std::uint32_t row = first; row < last; ++row) {
         rows[count] = row;
-        count += !is_taken(row) && is_wanted(row) ? 1u : 0u;
+        count += (is_taken(row) ? 0u : 1u) & (is_wanted(row) ? 1u : 0u);  // both: no branch
       }
       for (std::size_t i = 0; i < count; ++i) {
         prefetch(row_of(rows[std::min(i + 2 * kRowsAhead, count - 1)]), 2 * D);
