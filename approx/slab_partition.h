@@ -20,8 +20,9 @@ namespace ndhull {
 ///         for once, unless nothing is returned. None: no stars are looked for; so where a point was shifted.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
-/// Cost      each simplex is met in one to one and a half slabs, with its neighbours. Where the hull is not
-///           convex, a product of a direction with all points for each slab tried.
+/// Cost      each simplex is met in one slab, with its neighbours; those that are tried as seeds and left for
+///           later have their neighbours looked at for each time. Where the hull is not convex, a product of
+///           a direction with all points for each slab tried.
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
