@@ -139,13 +139,22 @@ void Approximation::make_space(bool with_left_out) {
   };
   for (const PointId id : extra_) take(id, others);
   for (const Reach& reach : furthest) take(reach.point, others);
-  space_.emplace(work.rank, factor_, growth_.coordinates(), work.point_count, vertices, others);
+  space_.emplace(work.rank, factor_, growth_.coordinates(), work.point_count, vertices, others,
+                 complex.row_count - work.free_count);
   left_out_tree_.reset();
-  if (!with_left_out || growth_.left_out().empty()) return;
-  std::vector<PointId> left_out;
-  for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
-  const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out);
-  left_out_tree_.emplace(work.rank, std::span<const double>(all.row(0), left_out.size() * work.rank));
+  has_left_out_ = with_left_out && !growth_.left_out().empty();
+  has_seen_all_ = !has_left_out_ || growth_.left_out().size() <= kFewLeftOut;
+}
+
+const PointTree& Approximation::left_out_tree() {
+  if (!left_out_tree_) {
+    const GrowthWork& work = growth_.work();
+    std::vector<PointId> left_out;
+    for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
+    const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out, 0);
+    left_out_tree_.emplace(work.rank, std::span<const double>(all.row(0), left_out.size() * work.rank));
+  }
+  return *left_out_tree_;
 }
 
 /// The widths over all points, not only those of the space, and what they are due to.
@@ -154,44 +163,50 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   TrueWidths result;
   result.widths.resize(count);
   result.furthest.resize(count);
-  if (!left_out_tree_) {  // the fits have seen all points
-    for (std::size_t facet = 0; facet < count; ++facet) result.widths[facet] = covering.planes[facet].width();
-    return result;
+  std::vector<std::uint32_t> searched, row_of_alone(count, kNone);  // facets
+  for (std::uint32_t facet = 0; facet < count; ++facet) {
+    const FittedPlane& plane = covering.planes[facet];
+    result.widths[facet] = plane.width();
+    // What is above a simplex with its own plane was not looked at.
+    if (has_left_out_ && (!has_seen_all_ || plane.height == 0.0)) searched.push_back(facet);
   }
-  std::vector<double> normals(count * rank), lows(count);
-  std::vector<std::uint32_t> row_of_alone(count, kNone);
+  if (searched.empty()) return result;
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
     if (covering.facet_of[row] != kNone) row_of_alone[covering.facet_of[row]] = row;
-  for (std::size_t facet = 0; facet < count; ++facet) {
-    const FittedPlane& plane = covering.planes[facet];
-    std::copy_n(plane.normal.data(), rank, normals.data() + facet * rank);
+  std::vector<double> normals, lows;
+  std::vector<FurthestPoint> furthest(searched.size());
+  for (std::size_t i = 0; i < searched.size(); ++i) {
+    const FittedPlane& plane = covering.planes[searched[i]];
+    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
     double height = plane.height;
-    lows[facet] = plane.low;
-    if (height == 0.0) {  // a simplex with its own plane
-      const PointId vertex = growth_.work().complex.vertices(SimplexId{row_of_alone[facet]})[0];
+    lows.push_back(plane.low);
+    if (height == 0.0) {
+      const PointId vertex = growth_.work().complex.vertices(SimplexId{row_of_alone[searched[i]]})[0];
       const double* z = space_->row(space_->row_of(vertex));
       for (std::size_t k = 0; k < rank; ++k) height += plane.normal[k] * z[k];
-      lows[facet] = height;
+      lows.back() = height;
     }
-    result.furthest[facet].dot = height;
+    furthest[i].dot = height;
   }
-  find_furthest(*left_out_tree_, normals, result.furthest);
-  for (std::size_t facet = 0; facet < count; ++facet)
-    result.widths[facet] = result.furthest[facet].dot - lows[facet];
+  find_furthest(left_out_tree(), normals, furthest);
+  for (std::size_t i = 0; i < searched.size(); ++i) {
+    result.widths[searched[i]] = furthest[i].dot - lows[i];
+    result.furthest[searched[i]] = furthest[i];
+  }
   return result;
 }
 
 /// The points left out that are furthest above the planes of these simplices.
-std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::uint32_t> simplices) const {
+std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::uint32_t> simplices) {
   const std::size_t rank = space_->rank();
   std::vector<FurthestPoint> found(simplices.size());
-  if (simplices.empty() || !left_out_tree_) return found;
+  if (simplices.empty() || !has_left_out_) return found;
   std::vector<double> normals(simplices.size() * rank);
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     space_->normal_of(growth_.work().complex.plane(SimplexId{simplices[i]}), normals.data() + i * rank);
     found[i].dot = -HUGE_VAL;
   }
-  find_furthest(*left_out_tree_, normals, found);
+  find_furthest(left_out_tree(), normals, found);
   return found;
 }
 
@@ -252,11 +267,9 @@ bool Approximation::keeps_hull(const Covering& covering) const {
   return find_open_direction(normals, space_->rank()).bounded;
 }
 
-/// Is it worth its time to join neighbours that fit into one slab? Of few facets, and of degenerate data:
-/// there slabs start from planes that rounding has drawn, and two may share what one could hold.
+/// Is it worth its time to join neighbours that fit into one slab?
 bool Approximation::is_worth_joining(std::size_t facets, std::size_t simplices) const {
-  return facets <= kFewFacets || (facets <= kFewSmallFacets && simplices < kSmall * facets) ||
-         is_degenerate();
+  return facets <= kFewFacets || (facets <= kFewSmallFacets && simplices < kSmall * facets);
 }
 
 void Approximation::join_neighbours(Covering& covering, double width) const {
@@ -292,7 +305,9 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
   if (!facets || !facets->is_listed()) return facets;
-  const std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
+  std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
+  // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
+  if (is_degenerate()) most = facets->members.size();
   join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
   return facets;
 }

@@ -97,13 +97,14 @@ class Approximation {
   }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
+  const PointTree& left_out_tree();
   /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets
   /// are the answer.
   double thinnest() const { return 1e-15 * lengths_.largest_extent; }
   /// Widths up to this are rounding's: a number of facets that is as narrow has found the flat faces.
   double flat() const { return 1e-13 * lengths_.largest_extent; }
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
-  std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices) const;
+  std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices);
   void grow_for_width(double outside_width, double slab);
   bool find_stars(double outside_width, double slab);
   bool take_star_hull(double slab, double rows);
@@ -126,8 +127,10 @@ class Approximation {
   HugeArray<double> determinants_;  // per row, of the hull as it is now; no memory: not known
   std::vector<PointId> extra_;      // points that reached further than the space knew
   std::optional<WidthSpace> space_;
-  std::optional<PointTree>
-      left_out_tree_;  // of left_out(), as rows of the space's kind; none: there are none
+  /// Have the fits seen all points, so that planes that were measured are as wide as they say?
+  bool has_seen_all_ = true;
+  bool has_left_out_ = false;               // which the space is meant to know
+  std::optional<PointTree> left_out_tree_;  // of left_out(), as rows of the space's kind, once asked for
 };
 
 }  // namespace ndhull

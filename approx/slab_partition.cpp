@@ -22,11 +22,12 @@ namespace {
 
 /// Slabs that are grown to see how many simplices they hold.
 constexpr std::size_t kSamples = 64;
-/// Of so few simplices, or from so large slabs on, a choice among overlapping ones takes no longer than
-/// growth, and a tenth to a third of the facets off.
-constexpr double kFewSimplices = 65'536.0, kLargeSlabs = 800.0;
-/// Below this mean slabs are found from the stars of all simplices (approx/thin_slabs.h).
-constexpr double kThinSlabs = 16.0;
+/// From so large slabs on overlapping ones are a tenth to four tenths fewer. They take up to twice the time:
+/// where a sixth as many points as there are vertices were left out, growth has saved that.
+constexpr double kLargeSlabs = 250.0, kLeftOut = 1.0 / 6.0;
+/// Below this mean, or where most are smaller than this, slabs are found from the stars of all simplices
+/// (approx/thin_slabs.h).
+constexpr double kThinSlabs = 16.0, kMostThin = 5.0;
 /// Of a seed's neighbours so many have to be open and in its slab before others are taken, and one more where
 /// slabs hold many simplices: looking longer costs little beside them.
 template <std::size_t D>
@@ -38,13 +39,21 @@ constexpr std::size_t kClasses = 64;
 /// Rows whose way from memory has begun.
 constexpr std::size_t kAhead = 4, kSeedsAhead = 8, kPlanesAhead = 3;
 
+/// How many simplices slabs hold: the mean over simplices, which few large slabs can rule, and what all
+/// simplices are divided by to get the number of slabs.
+struct SlabSizes {
+  double mean = 1.0, typical = 1.0;
+};
+
 template <std::size_t D>
 class Partitioner {
  public:
   Partitioner(const SimplicialComplex& complex, const WidthSpace& space, const double* coordinates,
               std::span<const double> factor, PointsAbove above, double width)
       : complex_(complex),
+        space_(space),
         coordinates_(coordinates),
+        above_(above),
         planes_(complex, space, factor, above, width),
         dots_(space.point_count()) {
     facets_.complex = &complex;
@@ -62,10 +71,11 @@ class Partitioner {
     members_ = HugeArray<std::uint32_t>(live_count_ + D);
   }
 
-  /// How many simplices slabs hold where nothing is taken. Where they are large a few tell.
-  double mean_size() {
+  /// Of slabs where nothing is taken. Where they are large a few tell.
+  SlabSizes slab_sizes() {
     constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
     std::size_t sum = 0, slabs = 0;
+    double inverse_sum = 0.0;
     for (std::size_t i = 0; i < kSamples && 2 * sum < live_count_; ++i) {
       const std::size_t place = 2 * (i * kStep % kSamples) + 1;
       const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
@@ -75,15 +85,18 @@ class Partitioner {
       if (!planes_.raise_above_points(row, own)) continue;
       grow(row, own);
       sum += count_;
+      inverse_sum += 1.0 / static_cast<double>(count_);
       give_back({0, 0});
     }
-    return slabs > 0 ? static_cast<double>(sum) / static_cast<double>(slabs) : 1.0;
+    if (inverse_sum == 0.0) return {};
+    return {static_cast<double>(sum) / static_cast<double>(slabs), static_cast<double>(slabs) / inverse_sum};
   }
 
-  /// Are slabs so large that it is worth growing overlapping ones, and choosing a few of them?
-  bool is_worth_choosing(double mean) const {
-    const auto all = static_cast<double>(live_count_);
-    return mean * mean > all && (all < kFewSimplices || mean > kLargeSlabs);
+  /// Is it worth growing overlapping slabs, and choosing a few of them?
+  bool is_worth_choosing(const SlabSizes& sizes) const {
+    const auto vertices = static_cast<double>(space_.vertex_count());
+    const double left_out = static_cast<double>(space_.table().count()) - vertices;
+    return above_ != PointsAbove::kAny && sizes.typical > kLargeSlabs && left_out > kLeftOut * vertices;
   }
 
   /// All simplices, no live one of them taken.
@@ -126,9 +139,9 @@ class Partitioner {
     return seeds;
   }
 
-  /// `mean`: mean_size(); `seeds`: seeds_by_distance().
-  DualFacets run(double mean, std::vector<std::uint32_t> seeds) {
-    const bool are_large = mean > kManySimplices && kNeighboursIn<D> + 1 < D;
+  /// `seeds`: seeds_by_distance().
+  DualFacets run(const SlabSizes& sizes, std::vector<std::uint32_t> seeds) {
+    const bool are_large = sizes.mean > kManySimplices && kNeighboursIn<D> + 1 < D;
     for (const std::size_t least : {kNeighboursIn<D> + (are_large ? 1 : 0), std::size_t{2}, std::size_t{0}})
       take_slabs(seeds, least);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
@@ -302,7 +315,9 @@ class Partitioner {
   }
 
   const SimplicialComplex& complex_;
+  const WidthSpace& space_;
   const double* coordinates_;
+  PointsAbove above_;
   SeedPlanes<D> planes_;
   std::vector<Dot> dots_;  // per point
   std::uint32_t slab_ = 0;
@@ -320,16 +335,16 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
   if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
-    const double mean = partitioner.mean_size();
-    if (partitioner.is_worth_choosing(mean)) return std::nullopt;
-    if (find_determinants && mean < kThinSlabs)
+    const SlabSizes sizes = partitioner.slab_sizes();
+    if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
+    if (find_determinants && (sizes.mean < kThinSlabs || sizes.typical < kMostThin))
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
-    if (!find_determinants) return partitioner.run(mean, std::move(seeds));
+    if (!find_determinants) return partitioner.run(sizes, std::move(seeds));
     // Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
     DualFacets facets;
-    do_beside([&] { facets = partitioner.run(mean, std::move(seeds)); }, [&] { find_determinants(); });
+    do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); }, [&] { find_determinants(); });
     return facets;
   });
 }

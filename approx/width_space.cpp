@@ -6,7 +6,7 @@ namespace ndhull {
 
 WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, const double* coordinates,
                        std::size_t point_count, std::span<const PointId> vertices,
-                       std::span<const PointId> others)
+                       std::span<const PointId> others, std::size_t planes)
     : rank_(rank),
       vertex_count_(vertices.size()),
       factor_(std::move(gradient_factor)),
@@ -26,9 +26,10 @@ WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, co
     }
   }
   table_ = SupportTable(rank, rows_);
-  // On spheres the cones of fewer points are too wide for most to be left out.
-  constexpr std::size_t kExponent = 6;
-  if (point_of_row_.size() >> (rank + kExponent) > 0) tree_.emplace(rank, rows_);
+  // On spheres the cones of fewer points are too wide for most to be left out. To make the tree takes as long
+  // as products with all points for some hundred directions.
+  constexpr std::size_t kExponent = 6, kFewPlanes = 256;
+  if (planes > kFewPlanes && point_of_row_.size() >> (rank + kExponent) > 0) tree_.emplace(rank, rows_);
 }
 
 FurthestPoint WidthSpace::furthest(std::span<const double> normal, double attained) const {

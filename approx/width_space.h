@@ -20,9 +20,11 @@ namespace ndhull {
 ///         frame has the normal R a, whose length is one over its distance from the frame's centre.
 class WidthSpace {
  public:
-  /// vertices and others: points without repetition; coordinates: any number of rows x rank, in the frame.
+  /// vertices and others: points without repetition; coordinates: any number of rows x rank, in the frame;
+  /// planes: about so many will be looked for, at most.
   WidthSpace(std::size_t rank, std::vector<double> gradient_factor, const double* coordinates,
-             std::size_t point_count, std::span<const PointId> vertices, std::span<const PointId> others);
+             std::size_t point_count, std::span<const PointId> vertices, std::span<const PointId> others,
+             std::size_t planes = SIZE_MAX);
 
   std::size_t rank() const { return rank_; }
   std::size_t vertex_count() const { return vertex_count_; }
@@ -35,7 +37,7 @@ class WidthSpace {
   /// Of a vertex or other point that was given.
   std::uint32_t row_of(PointId point) const { return row_of_point_[point.value]; }
 
-  /// So many points that products of a direction with all of them are to be avoided.
+  /// So many points, and planes, that products of a direction with all of them are to be avoided.
   bool is_large() const { return tree_.has_value(); }
   /// The furthest point along a direction, where a product that is attained is known. Its row is none when no
   /// other point reaches further. Precondition: is_large(). Cost  some 1 to 10 us (core/point_tree.h).

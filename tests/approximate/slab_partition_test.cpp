@@ -21,8 +21,11 @@ struct Slabs {
     for (std::size_t k = 0; k < grown.work.rank; ++k) factor[k * grown.work.rank + k] = 1.0;
   }
   std::optional<DualFacets> partition(double width, PointsAbove above = PointsAbove::kNoPoint) const {
-    return partition_into_slabs(sphere.work.complex, *sphere.space, sphere.coordinates.data(), factor, above,
-                                width, {});
+    return partition_in(*sphere.space, width, above);
+  }
+  std::optional<DualFacets> partition_in(const WidthSpace& space, double width, PointsAbove above) const {
+    return partition_into_slabs(sphere.work.complex, space, sphere.coordinates.data(), factor, above, width,
+                                {});
   }
   void join(double width, std::size_t most, DualFacets& facets) const {
     join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count,
@@ -81,9 +84,17 @@ TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
   }
 }
 
-TEST(SlabPartitionLaw, OverlappingSlabsAreBetterWhereAFewHoldAll) {
+TEST(SlabPartitionLaw, OverlappingSlabsAreLookedForWhereFewHoldAllAndGrowthWasShort) {
   const GrownSphere sphere("400 s D5 t1", 400);
-  EXPECT_FALSE(Slabs(sphere).partition(0.6));
+  const Slabs slabs(sphere);
+  std::vector<PointId> vertices, left_out;  // as if the last hundred were
+  for (std::uint32_t id = 0; id < 400; ++id) (id < 300 ? vertices : left_out).push_back(PointId{id});
+  const WidthSpace space(5, slabs.factor, sphere.coordinates.data(), 400, vertices, left_out);
+  EXPECT_TRUE(slabs.partition(0.6));
+  EXPECT_FALSE(slabs.partition_in(space, 0.6, PointsAbove::kLeftOut));
+  EXPECT_TRUE(slabs.partition_in(space, 0.01, PointsAbove::kLeftOut));
+  // Not of data whose planes rounding has drawn.
+  EXPECT_TRUE(slabs.partition_in(space, 0.6, PointsAbove::kAny));
 }
 
 TEST(SlabPartitionLaw, PointsAreLookedAtToTheSameEnd) {
