@@ -31,6 +31,10 @@ constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
 /// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
 /// few simplices each: there many fit, and large slabs leave hardly any.
 constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 30;
+/// Fewer for a width where growth has left out hardly any points, in parts of the vertices, and has taken
+/// about as long as the exact hull's; small facets where it has left out many.
+constexpr std::size_t kFewOfWholeHull = 128;
+constexpr double kHardlyAny = 1.0 / 6.0, kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 constexpr std::size_t kPartOfMean = 4;
 /// So many facets of which none is wider than the hull is high everywhere bound a region.
@@ -146,116 +150,6 @@ void Approximation::make_space(bool with_left_out) {
   has_seen_all_ = !has_left_out_ || growth_.left_out().size() <= kFewLeftOut;
 }
 
-const PointTree& Approximation::left_out_tree() {
-  if (!left_out_tree_) {
-    const GrowthWork& work = growth_.work();
-    std::vector<PointId> left_out;
-    for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
-    const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out, 0);
-    left_out_tree_.emplace(work.rank, std::span<const double>(all.row(0), left_out.size() * work.rank));
-  }
-  return *left_out_tree_;
-}
-
-/// The widths over all points, not only those of the space, and what they are due to.
-TrueWidths Approximation::true_widths(const Covering& covering) {
-  const std::size_t rank = space_->rank(), count = covering.planes.size();
-  TrueWidths result;
-  result.widths.resize(count);
-  result.furthest.resize(count);
-  std::vector<std::uint32_t> searched, row_of_alone(count, kNone);  // facets
-  for (std::uint32_t facet = 0; facet < count; ++facet) {
-    const FittedPlane& plane = covering.planes[facet];
-    result.widths[facet] = plane.width();
-    // What is above a simplex with its own plane was not looked at.
-    if (has_left_out_ && (!has_seen_all_ || plane.height == 0.0)) searched.push_back(facet);
-  }
-  if (searched.empty()) return result;
-  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
-    if (covering.facet_of[row] != kNone) row_of_alone[covering.facet_of[row]] = row;
-  std::vector<double> normals, lows;
-  std::vector<FurthestPoint> furthest(searched.size());
-  for (std::size_t i = 0; i < searched.size(); ++i) {
-    const FittedPlane& plane = covering.planes[searched[i]];
-    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
-    double height = plane.height;
-    lows.push_back(plane.low);
-    if (height == 0.0) {
-      const PointId vertex = growth_.work().complex.vertices(SimplexId{row_of_alone[searched[i]]})[0];
-      const double* z = space_->row(space_->row_of(vertex));
-      for (std::size_t k = 0; k < rank; ++k) height += plane.normal[k] * z[k];
-      lows.back() = height;
-    }
-    furthest[i].dot = height;
-  }
-  find_furthest(left_out_tree(), normals, furthest);
-  for (std::size_t i = 0; i < searched.size(); ++i) {
-    result.widths[searched[i]] = furthest[i].dot - lows[i];
-    result.furthest[searched[i]] = furthest[i];
-  }
-  return result;
-}
-
-/// The points left out that are furthest above the planes of these simplices.
-std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::uint32_t> simplices) {
-  const std::size_t rank = space_->rank();
-  std::vector<FurthestPoint> found(simplices.size());
-  if (simplices.empty() || !has_left_out_) return found;
-  std::vector<double> normals(simplices.size() * rank);
-  for (std::size_t i = 0; i < simplices.size(); ++i) {
-    space_->normal_of(growth_.work().complex.plane(SimplexId{simplices[i]}), normals.data() + i * rank);
-    found[i].dot = -HUGE_VAL;
-  }
-  find_furthest(left_out_tree(), normals, found);
-  return found;
-}
-
-/// Remembers, for each facet that is wider than `width`, the point that makes it so, and tells those that are
-/// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
-Offenders Approximation::add_offenders(const Covering& covering, const TrueWidths& widths, double width) {
-  const std::size_t rank = space_->rank(), count = widths.widths.size();
-  std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone), alone;
-  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
-    if (covering.facet_of[row] == kNone) continue;
-    ++size_of[covering.facet_of[row]];
-    row_of[covering.facet_of[row]] = row;
-  }
-  Offenders offenders;
-  const auto remember = [&](const FurthestPoint& furthest) {
-    const bool is_left_out = furthest.row != FurthestPoint::kNoRow;
-    if (is_left_out) extra_.push_back(growth_.left_out()[furthest.row].point);
-    return is_left_out;
-  };
-  for (std::uint32_t facet = 0; facet < count; ++facet) {
-    if (widths.widths[facet] <= width) continue;
-    remember(widths.furthest[facet]);
-    if (size_of[facet] > 1) {
-      offenders.widest_slab = std::max(offenders.widest_slab, widths.widths[facet]);
-    } else {
-      alone.push_back(row_of[facet]);
-    }
-  }
-  // Above the simplex' own plane: along one that was fitted in vain a point may be furthest that is below it.
-  const std::vector<FurthestPoint> furthest_of = furthest_above(alone);
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    if (!remember(furthest_of[i])) continue;
-    const PointId point = growth_.left_out()[furthest_of[i].row].point;
-    const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
-    const auto plane = growth_.work().complex.plane(SimplexId{alone[i]});
-    double gauge = -1.0;
-    for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
-    if (gauge > 0.0) offenders.above_simplices.push_back({point, SimplexId{alone[i]}, gauge});
-  }
-  const auto by_point = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point < b.point; };
-  const auto is_same = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point == b.point; };
-  std::vector<LocatedPoint>& above = offenders.above_simplices;
-  std::stable_sort(above.begin(), above.end(), by_point);
-  above.erase(std::unique(above.begin(), above.end(), is_same), above.end());
-  std::sort(extra_.begin(), extra_.end());
-  extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
-  return offenders;
-}
-
 /// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
 /// the hull is high everywhere, that is certain.
 bool Approximation::keeps_hull(const Covering& covering) const {
@@ -267,9 +161,23 @@ bool Approximation::keeps_hull(const Covering& covering) const {
   return find_open_direction(normals, space_->rank()).bounded;
 }
 
-/// Is it worth its time to join neighbours that fit into one slab?
+bool Approximation::has_few_small(std::size_t facets, std::size_t simplices) {
+  return facets <= kFewSmallFacets && simplices < kSmall * facets;
+}
+
+/// Is it worth its time to join neighbours that fit into one slab, for a number of facets? Of few facets, and
+/// of degenerate data: there slabs start from planes that rounding has drawn, and two may share what one
+/// could hold.
 bool Approximation::is_worth_joining(std::size_t facets, std::size_t simplices) const {
-  return facets <= kFewFacets || (facets <= kFewSmallFacets && simplices < kSmall * facets);
+  return facets <= kFewFacets || has_few_small(facets, simplices) || is_degenerate();
+}
+
+/// The same for a width, where disjoint slabs have joined along segments.
+bool Approximation::is_worth_joining_again(std::size_t facets, std::size_t simplices) const {
+  const auto vertices = static_cast<double>(space_->vertex_count());
+  const double left_out = static_cast<double>(space_->table().count()) / vertices - 1.0;
+  return facets <= (left_out > kHardlyAny ? kFewFacets : kFewOfWholeHull) ||
+         (left_out > kLeftOutMany && has_few_small(facets, simplices));
 }
 
 void Approximation::join_neighbours(Covering& covering, double width) const {
@@ -307,7 +215,8 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
   if (!facets || !facets->is_listed()) return facets;
   std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
-  if (is_degenerate()) most = facets->members.size();
+  if (is_degenerate() || has_few_small(facets->count(), facets->members.size()))
+    most = facets->members.size();
   join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
   return facets;
 }
@@ -316,7 +225,8 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
 /// region, and hardly any two facets would fit into one slab.
 bool Approximation::is_final(const DualFacets& facets) const {
   return facets.all_fit && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
-         !is_worth_joining(facets.count(), growth_.work().complex.row_count - growth_.work().free_count);
+         !is_worth_joining_again(facets.count(),
+                                 growth_.work().complex.row_count - growth_.work().free_count);
 }
 
 /// No planes: not even slabs as thin as rounding leave a hull.
@@ -340,7 +250,7 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
     if (covering.planes.size() == live) break;
   }
   hull_.chosen.slab_width = width;
-  if (is_worth_joining(covering.planes.size(), live)) join_neighbours(covering, width);
+  if (is_worth_joining_again(covering.planes.size(), live)) join_neighbours(covering, width);
   return covering;
 }
 

@@ -61,7 +61,9 @@ class Approximation {
 
  private:
   void make_space(bool with_left_out);
+  static bool has_few_small(std::size_t facets, std::size_t simplices);
   bool is_worth_joining(std::size_t facets, std::size_t simplices) const;
+  bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
   std::span<const double> find_determinants();
   std::optional<DualFacets> find_disjoint_slabs(double width);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -65,9 +66,66 @@ class SeedPlanes {
     return own.least <= 1.0 || fit(seed, own);
   }
 
+  /// Turns a seed's plane so that all vertices that are less than the width below it become less deep: that
+  /// makes room for more. Cost  two products of a direction with all points, and a fit.
+  void turn_to_vertices_below(std::uint32_t seed, SeedPlane<D>& own) {
+    FittedPlane start = measured(own, {});
+    list_vertices_from(start.height - width_, start);
+    SeedPlane<D> turned = own;
+    if (!turn(start, turned)) return;
+    for (std::size_t k = 0; k < D; ++k) {  // one may be lost by rounding
+      const PointId id{complex_.topology[std::size_t{seed} * 2 * D + k]};
+      if (dot_in_frame<D>(turned_.normal.data(), space_.row(space_.row_of(id))) < turned_.height - width_)
+        return;
+    }
+    own = turned;
+  }
+  /// The same with these vertices, all less than the width below it. False: no way of turning makes them less
+  /// deep.
+  bool turn_to(std::span<const PointId> vertices, SeedPlane<D>& own) {
+    vertices_.clear();
+    for (const PointId id : vertices) vertices_.push_back(space_.row_of(id));
+    return turn(measured(own, vertices_), own);
+  }
+
   double length_of(const double* plane) const { return length_of_(plane); }
 
  private:
+  FittedPlane measured(const SeedPlane<D>& own, std::span<const std::uint32_t> vertices) {
+    normal_.resize(D);
+    space_.normal_of(own.plane, normal_.data());
+    return measure_plane(space_, normal_, vertices, work_);
+  }
+
+  /// vertices_: those that are as high as `least`; and the low of `plane`, which was measured last.
+  void list_vertices_from(double least, FittedPlane& plane) {
+    vertices_.clear();
+    if (space_.is_large()) {  // measuring has left no products
+      vertices_.resize(space_.vertex_count());
+      std::iota(vertices_.begin(), vertices_.end(), 0u);
+    } else {
+      space_.table().rows_above(work_.products, least, space_.vertex_count(), vertices_);
+    }
+    std::erase_if(vertices_, [&](std::uint32_t row) {
+      const double height = dot_in_frame<D>(plane.normal.data(), space_.row(row));
+      if (height < least) return true;
+      plane.low = std::min(plane.low, height);
+      return false;
+    });
+  }
+
+  /// To vertices_. The last plane measured must be `start`.
+  bool turn(const FittedPlane& start, SeedPlane<D>& own) {
+    constexpr unsigned kSteps = 24;
+    turned_ = narrow_plane(space_, start, vertices_, kSteps, work_);
+    if (turned_.normal == start.normal || turned_.width() > width_) return false;
+    std::array<double, D> plane;
+    space_.plane_of(turned_.normal.data(), turned_.height, plane.data());
+    own = below(plane, 1.0);
+    own.is_fitted = true;
+    return true;
+  }
+
   bool fit(std::uint32_t seed, SeedPlane<D>& own) {
     constexpr unsigned kSteps = 48;
     std::array<std::uint32_t, D> vertices;
@@ -91,6 +149,9 @@ class SeedPlanes {
   PlaneTops tops_;
   PointsAbove above_;
   PlaneFitWork work_;
+  FittedPlane turned_;
+  std::vector<double> normal_;
+  std::vector<std::uint32_t> vertices_;  // rows of the space
   double width_;
 };
 

@@ -22,12 +22,19 @@ namespace {
 
 /// Slabs that are grown to see how many simplices they hold.
 constexpr std::size_t kSamples = 64;
-/// From so large slabs on overlapping ones are a tenth to four tenths fewer. They take up to twice the time:
-/// where a sixth as many points as there are vertices were left out, growth has saved that.
-constexpr double kLargeSlabs = 250.0, kLeftOut = 1.0 / 6.0;
+/// Slabs are turned to what they hold from so many simplices on, which in the end are a tenth to a quarter
+/// fewer: where growth has left out so many points, in parts of the vertices, that it saved the time for it,
+/// and where slabs are so large that it hardly takes any. A plane among many points takes longer.
+constexpr double kSomeLeftOut = 1.0 / 6.0, kManyLeftOut = 0.5;
+constexpr double kTurned = 800.0, kTurnedOfSome = 250.0, kTurnedOfMany = 60.0, kLongerOfLarge = 3.0;
+constexpr int kTurns = 2;
+/// Of so few slabs, as large as those turned where growth left some points out, it is better to choose among
+/// overlapping ones.
+constexpr double kFewSlabs = 100.0;
 /// Below this mean, or where most are smaller than this, slabs are found from the stars of all simplices
-/// (approx/thin_slabs.h).
+/// (approx/thin_slabs.h); not of so few simplices, of which walks take no longer.
 constexpr double kThinSlabs = 16.0, kMostThin = 5.0;
+constexpr std::size_t kFewSimplices = std::size_t{1} << 14;
 /// Of a seed's neighbours so many have to be open and in its slab before others are taken, and one more where
 /// slabs hold many simplices: looking longer costs little beside them.
 template <std::size_t D>
@@ -94,9 +101,12 @@ class Partitioner {
 
   /// Is it worth growing overlapping slabs, and choosing a few of them?
   bool is_worth_choosing(const SlabSizes& sizes) const {
-    const auto vertices = static_cast<double>(space_.vertex_count());
-    const double left_out = static_cast<double>(space_.table().count()) - vertices;
-    return above_ != PointsAbove::kAny && sizes.typical > kLargeSlabs && left_out > kLeftOut * vertices;
+    return above_ != PointsAbove::kAny && left_out() > kSomeLeftOut && sizes.typical > kTurnedOfSome &&
+           static_cast<double>(live_count_) < kFewSlabs * sizes.typical;
+  }
+
+  bool is_better_by_stars(const SlabSizes& sizes) const {
+    return live_count_ >= kFewSimplices && (sizes.mean < kThinSlabs || sizes.typical < kMostThin);
   }
 
   /// All simplices, no live one of them taken.
@@ -142,6 +152,7 @@ class Partitioner {
   /// `seeds`: seeds_by_distance().
   DualFacets run(const SlabSizes& sizes, std::vector<std::uint32_t> seeds) {
     const bool are_large = sizes.mean > kManySimplices && kNeighboursIn<D> + 1 < D;
+    are_turned_ = is_worth_turning(sizes);
     for (const std::size_t least : {kNeighboursIn<D> + (are_large ? 1 : 0), std::size_t{2}, std::size_t{0}})
       take_slabs(seeds, least);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
@@ -178,21 +189,52 @@ class Partitioner {
     return dot_in_frame<D>(plane.data(), coordinates_ + std::size_t{point} * D);
   }
 
+  /// Points left out, in parts of the vertices.
+  double left_out() const {
+    return static_cast<double>(space_.table().count()) / static_cast<double>(space_.vertex_count()) - 1.0;
+  }
+  bool is_worth_turning(const SlabSizes& sizes) const {
+    const double least = left_out() > kManyLeftOut   ? kTurnedOfMany
+                         : left_out() > kSomeLeftOut ? kTurnedOfSome
+                                                     : kTurned;
+    return sizes.typical > least * (space_.is_large() ? kLongerOfLarge : 1.0);
+  }
+
   /// Appends the simplices of a slab, `own` being its plane: those that are in none yet and connected to the
   /// seed.
   void grow(std::uint32_t seed, const SeedPlane<D>& own) {
-    SimplexMarks& marks = facets_.marks;
-    std::uint32_t* const members = members_.data();
-    const std::uint32_t slab = ++slab_;
-    std::size_t next = count_;
-    members[count_++] = seed;
-    marks.set_taken(seed, true);
+    ++slab_;
+    members_[count_++] = seed;
+    facets_.marks.set_taken(seed, true);
     make_room(D);
     for (std::size_t k = 0; k < D; ++k) {
       const std::uint32_t vertex = row_of(seed)[k];
-      dots_[vertex] = {HUGE_VAL, slab, 1};
+      dots_[vertex] = {HUGE_VAL, slab_, 1};
       facets_.vertices[vertex_count_++] = PointId{vertex};
     }
+    walk_from(count_ - 1, own);
+  }
+
+  /// Turns the plane of the slab that begins there to the vertices that it has, and appends what it then
+  /// takes.
+  void grow_on(Ends begin, SeedPlane<D>& own) {
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const std::size_t before = count_;
+      const auto vertices =
+          std::span(facets_.vertices).subspan(begin.vertices, vertex_count_ - begin.vertices);
+      if (count_ - begin.members == 1 || !planes_.turn_to(vertices, own)) return;
+      ++slab_;
+      for (const PointId vertex : vertices) dots_[vertex.value] = {HUGE_VAL, slab_, 1};
+      walk_from(begin.members, own);
+      if (count_ == before) return;
+    }
+  }
+
+  /// Takes what is in the slab beside these members and those appended.
+  void walk_from(std::size_t next, const SeedPlane<D>& own) {
+    SimplexMarks& marks = facets_.marks;
+    std::uint32_t* const members = members_.data();
+    const std::uint32_t slab = slab_;
     for (; next < count_; ++next) {
       if (next + kAhead < count_) {
         const std::uint32_t* later = row_of(members[next + kAhead]) + D;
@@ -304,7 +346,9 @@ class Partitioner {
       return false;
     const Ends begin{count_, vertex_count_};
     if (fits) {
+      if (are_turned_) planes_.turn_to_vertices_below(seed, own);
       grow(seed, own);
+      if (are_turned_) grow_on(begin, own);
     } else {
       members_[count_++] = seed;
       facets_.marks.set_taken(seed, true);
@@ -320,7 +364,8 @@ class Partitioner {
   PointsAbove above_;
   SeedPlanes<D> planes_;
   std::vector<Dot> dots_;  // per point
-  std::uint32_t slab_ = 0;
+  bool are_turned_ = false;
+  std::uint32_t slab_ = 0;            // each time that a plane is new
   HugeArray<std::uint32_t> members_;  // as far as they are listed: count_
   std::size_t live_count_ = 0, count_ = 0, vertex_count_ = 0;
   DualFacets facets_;
@@ -337,7 +382,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
     const SlabSizes sizes = partitioner.slab_sizes();
     if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
-    if (find_determinants && (sizes.mean < kThinSlabs || sizes.typical < kMostThin))
+    if (find_determinants && partitioner.is_better_by_stars(sizes))
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();

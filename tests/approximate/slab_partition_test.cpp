@@ -66,6 +66,14 @@ void expect_slabs(const GrownSphere& sphere, const DualFacets& facets, double wi
   }
 }
 
+/// As if growth had left out the second half of the points.
+WidthSpace space_with_left_out(const GrownSphere& sphere, const Slabs& slabs) {
+  const auto count = static_cast<std::uint32_t>(sphere.work.point_count);
+  std::vector<PointId> vertices, left_out;
+  for (std::uint32_t id = 0; id < count; ++id) (2 * id < count ? vertices : left_out).push_back(PointId{id});
+  return {sphere.work.rank, slabs.factor, sphere.coordinates.data(), count, vertices, left_out};
+}
+
 TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
   for (const char* words : {"400 s D5 t1", "300 s D4 t2", "120 s D7 t3"}) {
     const GrownSphere sphere(words, static_cast<std::uint32_t>(std::atoi(words)));
@@ -87,14 +95,30 @@ TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
 TEST(SlabPartitionLaw, OverlappingSlabsAreLookedForWhereFewHoldAllAndGrowthWasShort) {
   const GrownSphere sphere("400 s D5 t1", 400);
   const Slabs slabs(sphere);
-  std::vector<PointId> vertices, left_out;  // as if the last hundred were
-  for (std::uint32_t id = 0; id < 400; ++id) (id < 300 ? vertices : left_out).push_back(PointId{id});
-  const WidthSpace space(5, slabs.factor, sphere.coordinates.data(), 400, vertices, left_out);
+  const WidthSpace space = space_with_left_out(sphere, slabs);
   EXPECT_TRUE(slabs.partition(0.6));
   EXPECT_FALSE(slabs.partition_in(space, 0.6, PointsAbove::kLeftOut));
   EXPECT_TRUE(slabs.partition_in(space, 0.01, PointsAbove::kLeftOut));
   // Not of data whose planes rounding has drawn.
   EXPECT_TRUE(slabs.partition_in(space, 0.6, PointsAbove::kAny));
+}
+
+TEST(SlabPartitionLaw, TurnedSlabsAreSlabsAndFewer) {
+  for (const char* words : {"400 s D5 t1", "200 s D6 t2"}) {
+    const GrownSphere sphere(words, static_cast<std::uint32_t>(std::atoi(words)));
+    const Slabs slabs(sphere);
+    const WidthSpace space = space_with_left_out(sphere, slabs);
+    for (const double width : {0.2, 0.25}) {
+      const std::optional<DualFacets> plain = slabs.partition(width),
+                                      turned = slabs.partition_in(space, width, PointsAbove::kLeftOut);
+      ASSERT_TRUE(plain && turned);
+      expect_lists(sphere, *turned);
+      expect_slabs(sphere, *turned, width);
+      EXPECT_TRUE(plain->own_planes.empty());
+      EXPECT_FALSE(turned->own_planes.empty());
+      EXPECT_LT(turned->count(), plain->count()) << words << ", width " << width;
+    }
+  }
 }
 
 TEST(SlabPartitionLaw, PointsAreLookedAtToTheSameEnd) {
