@@ -2,7 +2,8 @@
 // met once; the seed's own plane is its plane, which no point is above where the hull is convex. Two things
 // keep slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And
 // seeds most of whose neighbours would be in their slab come before all others: how large a slab becomes
-// shows there already, and what was taken of it as well.
+// shows there already, and what was taken of it as well. Where growth was short there is time for a third:
+// the plane is turned to what is below it, and again to what the slab took, which makes room for more.
 #include "approx/slab_partition.h"
 
 #include <algorithm>

@@ -12,17 +12,20 @@
 
 namespace ndhull {
 
-/// Each live simplex is in one facet, whose simplices are connected. Nothing where slabs are so large that
-/// overlapping ones (approx/slab_cover.h) are worth their time. Vertices are listed unless slabs hold so few
-/// simplices that they were found from stars (approx/thin_slabs.h), which joining would hardly make fewer.
+/// Each live simplex is in one facet, whose simplices are connected. Nothing where growth left points out and
+/// so few slabs hold all that a choice among overlapping ones (approx/slab_cover.h) is better. Planes are the
+/// seeds' own; where growth left many points out, or slabs are large, turned to what the slab holds. Vertices
+/// are listed unless slabs hold so few simplices that they were found from stars (approx/thin_slabs.h), which
+/// joining would hardly make fewer.
 ///
 /// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank. find_determinants: asked
 ///         for once, unless nothing is returned. None: no stars are looked for; so where a point was shifted.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
 /// Cost      each simplex is met in one slab, with its neighbours; those that are tried as seeds and left for
-///           later have their neighbours looked at for each time. Where the hull is not convex, a product of
-///           a direction with all points for each slab tried.
+///           later have their neighbours looked at for each time; in up to three passes where planes are
+///           turned, with a fit for each. Where the hull is not convex, a product of a direction with all
+///           points for each slab tried.
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
