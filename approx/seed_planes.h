@@ -72,7 +72,8 @@ class SeedPlanes {
     FittedPlane start = measured(own, {});
     list_vertices_from(start.height - width_, start);
     SeedPlane<D> turned = own;
-    if (!turn(start, turned)) return;
+    // None where rounding takes a seed out that is just within the width.
+    if (vertices_.empty() || !turn(start, turned)) return;
     for (std::size_t k = 0; k < D; ++k) {  // one may be lost by rounding
       const PointId id{complex_.topology[std::size_t{seed} * 2 * D + k]};
       if (dot_in_frame<D>(turned_.normal.data(), space_.row(space_.row_of(id))) < turned_.height - width_)
