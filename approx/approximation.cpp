@@ -34,7 +34,7 @@ constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 30;
 /// Fewer for a width where growth has left out hardly any points, in parts of the vertices, and has taken
 /// about as long as the exact hull's; small facets where it has left out many.
 constexpr std::size_t kFewOfWholeHull = 128;
-constexpr double kHardlyAny = 1.0 / 6.0, kLeftOutMany = 1.0;
+constexpr double kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 constexpr std::size_t kPartOfMean = 4;
 /// So many facets of which none is wider than the hull is high everywhere bound a region.
@@ -174,9 +174,8 @@ bool Approximation::is_worth_joining(std::size_t facets, std::size_t simplices) 
 
 /// The same for a width, where disjoint slabs have joined along segments.
 bool Approximation::is_worth_joining_again(std::size_t facets, std::size_t simplices) const {
-  const auto vertices = static_cast<double>(space_->vertex_count());
-  const double left_out = static_cast<double>(space_->table().count()) / vertices - 1.0;
-  return facets <= (left_out > kHardlyAny ? kFewFacets : kFewOfWholeHull) ||
+  const double left_out = space_->share_of_others();
+  return facets <= (left_out > kSomeLeftOut ? kFewFacets : kFewOfWholeHull) ||
          (left_out > kLeftOutMany && has_few_small(facets, simplices));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ndhull {
 namespace {
@@ -87,6 +88,17 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
   plane.highest = space.table().find(normal.data(), work.products, plane.height);
   plane.low = lowest_dot(space, normal, vertices);
   return plane;
+}
+
+void list_vertices_from(const WidthSpace& space, double least, const PlaneFitWork& work,
+                        std::vector<std::uint32_t>& rows) {
+  rows.clear();
+  if (space.is_large()) {  // measuring has left no products
+    rows.resize(space.vertex_count());
+    std::iota(rows.begin(), rows.end(), 0u);
+  } else {
+    space.table().rows_above(work.products, least, space.vertex_count(), rows);
+  }
 }
 
 double turn_among(const WidthSpace& space, std::span<const double> normal,

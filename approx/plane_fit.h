@@ -41,6 +41,11 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
 double lowest_dot(const WidthSpace& space, std::span<const double> normal,
                   std::span<const std::uint32_t> vertices);
 
+/// rows: the vertices whose products with the direction that was measured last are `least` or more; some, and
+/// where the space is large any, that are less may be among them.
+void list_vertices_from(const WidthSpace& space, double least, const PlaneFitWork& work,
+                        std::vector<std::uint32_t>& rows);
+
 /// Turns `start` towards less width, looking only at points within a width below it, the highest if they are
 /// very many. The last plane measured must be start. Returns the width among those points, which can be less
 /// than over all points, of work.best.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -70,7 +69,13 @@ class SeedPlanes {
   /// makes room for more. Cost  two products of a direction with all points, and a fit.
   void turn_to_vertices_below(std::uint32_t seed, SeedPlane<D>& own) {
     FittedPlane start = measured(own, {});
-    list_vertices_from(start.height - width_, start);
+    const double least = start.height - width_;
+    list_vertices_from(space_, least, work_, vertices_);
+    std::erase_if(vertices_, [&](std::uint32_t row) {
+      const double height = dot_in_frame<D>(start.normal.data(), space_.row(row));
+      if (height >= least) start.low = std::min(start.low, height);
+      return height < least;
+    });
     SeedPlane<D> turned = own;
     // None where rounding takes a seed out that is just within the width.
     if (vertices_.empty() || !turn(start, turned)) return;
@@ -98,28 +103,14 @@ class SeedPlanes {
     return measure_plane(space_, normal_, vertices, work_);
   }
 
-  /// vertices_: those that are as high as `least`; and the low of `plane`, which was measured last.
-  void list_vertices_from(double least, FittedPlane& plane) {
-    vertices_.clear();
-    if (space_.is_large()) {  // measuring has left no products
-      vertices_.resize(space_.vertex_count());
-      std::iota(vertices_.begin(), vertices_.end(), 0u);
-    } else {
-      space_.table().rows_above(work_.products, least, space_.vertex_count(), vertices_);
-    }
-    std::erase_if(vertices_, [&](std::uint32_t row) {
-      const double height = dot_in_frame<D>(plane.normal.data(), space_.row(row));
-      if (height < least) return true;
-      plane.low = std::min(plane.low, height);
-      return false;
-    });
-  }
-
   /// To vertices_. The last plane measured must be `start`.
   bool turn(const FittedPlane& start, SeedPlane<D>& own) {
     constexpr unsigned kSteps = 24;
     turned_ = narrow_plane(space_, start, vertices_, kSteps, work_);
-    if (turned_.normal == start.normal || turned_.width() > width_) return false;
+    return turned_.normal != start.normal && take_turned(own);
+  }
+  bool take_turned(SeedPlane<D>& own) const {
+    if (turned_.width() > width_) return false;
     std::array<double, D> plane;
     space_.plane_of(turned_.normal.data(), turned_.height, plane.data());
     own = below(plane, 1.0);
@@ -129,19 +120,11 @@ class SeedPlanes {
 
   bool fit(std::uint32_t seed, SeedPlane<D>& own) {
     constexpr unsigned kSteps = 48;
-    std::array<std::uint32_t, D> vertices;
+    vertices_.clear();
     for (std::size_t k = 0; k < D; ++k)
-      vertices[k] = space_.row_of(PointId{complex_.topology[std::size_t{seed} * 2 * D + k]});
-    std::vector<double> normal(D);
-    space_.normal_of(own.plane, normal.data());
-    const FittedPlane start = measure_plane(space_, normal, vertices, work_);
-    const FittedPlane fitted = narrow_plane(space_, start, vertices, kSteps, work_);
-    if (fitted.width() > width_) return false;
-    std::array<double, D> plane;
-    space_.plane_of(fitted.normal.data(), fitted.height, plane.data());
-    own = below(plane, 1.0);
-    own.is_fitted = true;
-    return true;
+      vertices_.push_back(space_.row_of(PointId{complex_.topology[std::size_t{seed} * 2 * D + k]}));
+    turned_ = narrow_plane(space_, measured(own, vertices_), vertices_, kSteps, work_);
+    return take_turned(own);
   }
 
   const SimplicialComplex& complex_;

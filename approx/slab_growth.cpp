@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "core/dimension_switch.h"
 #include "core/prefetch.h"
@@ -250,13 +249,7 @@ void SlabGrower::find_vertices_of(VertexSlab& slab, double width, const CoverEff
 void SlabGrower::find_vertices_below(const FittedPlane& plane, double width, SlabScratch& scratch) const {
   const double least = plane.height - kDepthRoom * width;
   ++scratch.vertex_pass;
-  scratch.vertices.clear();
-  if (space_.is_large()) {  // measuring has left no products
-    scratch.vertices.resize(space_.vertex_count());
-    std::iota(scratch.vertices.begin(), scratch.vertices.end(), 0u);
-  } else {
-    space_.table().rows_above(scratch.fit.products, least, space_.vertex_count(), scratch.vertices);
-  }
+  list_vertices_from(space_, least, scratch.fit, scratch.vertices);
   std::erase_if(scratch.vertices, [&](std::uint32_t row) {
     scratch.dots[row] = dot_of(plane.normal.data(), row);
     scratch.vertex_stamp[row] = scratch.vertex_pass;

@@ -26,7 +26,7 @@ constexpr std::size_t kSamples = 64;
 /// Slabs are turned to what they hold from so many simplices on, which in the end are a tenth to a quarter
 /// fewer: where growth has left out so many points, in parts of the vertices, that it saved the time for it,
 /// and where slabs are so large that it hardly takes any. A plane among many points takes longer.
-constexpr double kSomeLeftOut = 1.0 / 6.0, kManyLeftOut = 0.5;
+constexpr double kManyLeftOut = 0.5;
 constexpr double kTurned = 800.0, kTurnedOfSome = 250.0, kTurnedOfMany = 60.0, kLongerOfLarge = 3.0;
 constexpr int kTurns = 2;
 /// Of so few slabs, as large as those turned where growth left some points out, it is better to choose among
@@ -102,8 +102,8 @@ class Partitioner {
 
   /// Is it worth growing overlapping slabs, and choosing a few of them?
   bool is_worth_choosing(const SlabSizes& sizes) const {
-    return above_ != PointsAbove::kAny && left_out() > kSomeLeftOut && sizes.typical > kTurnedOfSome &&
-           static_cast<double>(live_count_) < kFewSlabs * sizes.typical;
+    return above_ != PointsAbove::kAny && space_.share_of_others() > kSomeLeftOut &&
+           sizes.typical > kTurnedOfSome && static_cast<double>(live_count_) < kFewSlabs * sizes.typical;
   }
 
   bool is_better_by_stars(const SlabSizes& sizes) const {
@@ -190,14 +190,11 @@ class Partitioner {
     return dot_in_frame<D>(plane.data(), coordinates_ + std::size_t{point} * D);
   }
 
-  /// Points left out, in parts of the vertices.
-  double left_out() const {
-    return static_cast<double>(space_.table().count()) / static_cast<double>(space_.vertex_count()) - 1.0;
-  }
   bool is_worth_turning(const SlabSizes& sizes) const {
-    const double least = left_out() > kManyLeftOut   ? kTurnedOfMany
-                         : left_out() > kSomeLeftOut ? kTurnedOfSome
-                                                     : kTurned;
+    const double left_out = space_.share_of_others();
+    const double least = left_out > kManyLeftOut   ? kTurnedOfMany
+                         : left_out > kSomeLeftOut ? kTurnedOfSome
+                                                   : kTurned;
     return sizes.typical > least * (space_.is_large() ? kLongerOfLarge : 1.0);
   }
 

@@ -12,6 +12,9 @@
 
 namespace ndhull {
 
+/// Growth was shorter than the exact hull's where it left out so many points, in parts of the vertices.
+inline constexpr double kSomeLeftOut = 1.0 / 6.0;
+
 /// Each live simplex is in one facet, whose simplices are connected. Nothing where growth left points out and
 /// so few slabs hold all that a choice among overlapping ones (approx/slab_cover.h) is better. Planes are the
 /// seeds' own; where growth left many points out, or slabs are large, turned to what the slab holds. Vertices

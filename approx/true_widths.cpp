@@ -1,7 +1,7 @@
 // How wide facets are over all points, and what makes them so: the part of approx/approximation.h that says
 // which points are to be taken in.
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "approx/approximation.h"
 #include "core/ids.h"
@@ -25,7 +25,7 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   TrueWidths result;
   result.widths.resize(count);
   result.furthest.resize(count);
-  std::vector<std::uint32_t> searched, row_of_alone(count, kNone);  // facets
+  std::vector<std::uint32_t> searched;  // facets
   for (std::uint32_t facet = 0; facet < count; ++facet) {
     const FittedPlane& plane = covering.planes[facet];
     result.widths[facet] = plane.width();
@@ -33,6 +33,7 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
     if (has_left_out_ && (!has_seen_all_ || plane.height == 0.0)) searched.push_back(facet);
   }
   if (searched.empty()) return result;
+  std::vector<std::uint32_t> row_of_alone(count, kNone);
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
     if (covering.facet_of[row] != kNone) row_of_alone[covering.facet_of[row]] = row;
   std::vector<double> normals, lows;

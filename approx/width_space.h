@@ -28,6 +28,11 @@ class WidthSpace {
 
   std::size_t rank() const { return rank_; }
   std::size_t vertex_count() const { return vertex_count_; }
+  /// How many other points there are, in parts of the vertices: where these are points that growth left out,
+  /// how much shorter it was than the exact hull's.
+  double share_of_others() const {
+    return static_cast<double>(table_.count()) / static_cast<double>(vertex_count_) - 1.0;
+  }
   std::span<const double> gradient_factor() const { return factor_; }
   /// Of the input, of which some are in the space.
   std::size_t point_count() const { return row_of_point_.size(); }
