@@ -104,9 +104,8 @@ void Approximation::make_space(bool with_left_out) {
   const SimplicialComplex& complex = work.complex;
   std::vector<std::uint8_t> is_taken(work.point_count, 0);
   std::vector<PointId> vertices, others;
-  // A hull has no more of them than points were added: where all are still vertices, few rows name them.
-  const std::size_t most_vertices = work.counters.insertions + work.rank + 1;
-  for (std::uint32_t row = 0; row < complex.row_count && vertices.size() < most_vertices; ++row) {
+  // Where all points added are still vertices, few rows name them.
+  for (std::uint32_t row = 0; row < complex.row_count && vertices.size() < work.most_vertices(); ++row) {
     if (complex.state[row] != SimplexState::kLive) continue;
     for (const PointId id : complex.vertices(SimplexId{row})) {
       if (is_taken[id.value]) continue;
@@ -117,16 +116,18 @@ void Approximation::make_space(bool with_left_out) {
   std::vector<Reach> furthest;
   const std::size_t few = with_left_out ? kFewLeftOut : kFewOfCoarse;
   if (with_left_out && !growth_.left_out().empty()) {
-    const bool are_few = growth_.left_out().size() <= few;
-    std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
-    for (const LocatedPoint& point : growth_.left_out()) {
-      if (are_few) furthest.push_back({0.0, point.point});
-      const double height = height_above(work, point.simplex.value, point.gauge);
-      const Reach reach{std::isfinite(height) ? height : HUGE_VAL, point.point};
-      if (reach < of_row[point.simplex.value]) of_row[point.simplex.value] = reach;
+    if (growth_.left_out().size() <= few) {
+      for (const LocatedPoint& point : growth_.left_out()) furthest.push_back({0.0, point.point});
+    } else {
+      std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
+      for (const LocatedPoint& point : growth_.left_out()) {
+        const double height = height_above(work, point.simplex.value, point.gauge);
+        const Reach reach{std::isfinite(height) ? height : HUGE_VAL, point.point};
+        if (reach < of_row[point.simplex.value]) of_row[point.simplex.value] = reach;
+      }
+      for (const Reach& reach : of_row)
+        if (reach.point.valid()) furthest.push_back(reach);
     }
-    for (const Reach& reach : of_row)
-      if (!are_few && reach.point.valid()) furthest.push_back(reach);
   } else if (!with_left_out) {
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive || complex.outside_head[row] == 0) continue;
@@ -192,8 +193,7 @@ std::span<const double> Approximation::find_determinants() {
   if (determinants_.data() == nullptr) {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex.row_count);
-    chain_outwards(complex, growth_.coordinates(), space_->point_count(),
-                   {determinants_.data(), complex.row_count});
+    find_outwards(complex, growth_.coordinates(), {determinants_.data(), complex.row_count});
     hull_.statistics.detail_seconds.emplace_back("volumes", seconds_since(start));
   }
   return {determinants_.data(), complex.row_count};

@@ -56,7 +56,7 @@ class Approximation {
   bool may_do_without_complex() const;
   /// What run() found instead of clusters, if it did.
   std::optional<StarHull>& star_hull() { return star_hull_; }
-  /// chain_outwards of all rows, if run() asked for them; else no memory.
+  /// find_outwards of all rows, if run() asked for them; else no memory.
   HugeArray<double> take_determinants() { return std::move(determinants_); }
 
  private:

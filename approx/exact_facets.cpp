@@ -46,9 +46,8 @@ void solve_outwards(SimplicialComplex& complex, const double* points,
   turn_outwards(determinants);
 }
 
-void chain_outwards(SimplicialComplex& complex, const double* points, std::size_t point_count,
-                    std::span<double> determinants) {
-  if (!chain_determinants(complex, points, point_count, determinants))
+void find_outwards(SimplicialComplex& complex, const double* points, std::span<double> determinants) {
+  if (!find_determinants(complex, points, determinants))
     return solve_outwards(complex, points, {}, determinants);
   turn_outwards(determinants);
 }

@@ -21,10 +21,8 @@ std::vector<std::uint8_t> find_shifted(const GrowthWork& work);
 void solve_outwards(SimplicialComplex& complex, const double* points,
                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 
-/// The same of a hull without shifted points, most of them from a neighbour's: chain_determinants, or solved
-/// where that loses digits.
-void chain_outwards(SimplicialComplex& complex, const double* points, std::size_t point_count,
-                    std::span<double> determinants);
+/// The same of a hull without shifted points: find_determinants, or solved where that loses digits.
+void find_outwards(SimplicialComplex& complex, const double* points, std::span<double> determinants);
 
 /// How many facets coplanar merging leaves of the simplices; `work` stays as it is.
 ///

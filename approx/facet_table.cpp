@@ -159,14 +159,17 @@ class TableMaker {
 
   /// Facets with lists of simplices or vertices.
   void look_at_listed() {
-    VisitFacets sum;
+    SimplexSums sums;
     if (sums_simplices_) {
       merged_areas_.resize(count_ - layout_.simplicial);
-      surfaces_.resize((count_ + kListedAtATime - 1) / kListedAtATime);
-      sum = [this](std::size_t begin, std::size_t end) { sum_block(begin, end); };
+      merged_surfaces_.resize(count_ - layout_.simplicial);
+      sums.determinants = {simplex_determinants_.data(), complex_.row_count};
+      sums.take = [this](std::size_t begin, std::size_t end, std::span<const double> found) {
+        take_sums(begin, end, found);
+      };
     }
     find_own_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(),
-                  {low(0, count_), high(0, count_), close_}, sum);
+                  {low(0, count_), high(0, count_), close_}, sums);
   }
 
   void end_block(std::size_t begin, std::size_t end) {
@@ -288,7 +291,7 @@ class TableMaker {
       table_.area += part.area;
     }
     double surface = layout_.merged_surface;
-    for (const double part : surfaces_) surface += part;
+    for (const double part : merged_surfaces_) surface += part;
     if (sums_simplices_) {
       std::copy(merged_areas_.begin(), merged_areas_.end(), table_.areas.data() + layout_.simplicial);
     } else {
@@ -309,14 +312,19 @@ class TableMaker {
   double area_per_determinant() const { return static_cast<double>(frame_.rank) * volume_per_determinant_; }
 
   /// Determinants of facets, and areas of those that are merged.
-  void sum_block(std::size_t begin, std::size_t end) {
+  void take_sums(std::size_t begin, std::size_t end, std::span<const double> sums) {
     std::array<double, kListedAtATime * kMaxRank> area_vectors;
-    const std::size_t merged = std::clamp(layout_.simplicial, begin, end);
-    const auto used = std::span(area_vectors).first((end - merged) * frame_.rank);
-    SimplexSums sums{{table_.offsets.data() + begin, end - begin}, used};
-    sum_simplices(complex_, {simplex_determinants_.data(), complex_.row_count}, layout_, begin, sums);
-    surfaces_[begin / kListedAtATime] = sums.surface;
-    if (merged < end) project_areas(merged, used, merged_areas_.data() + (merged - layout_.simplicial));
+    double* next = area_vectors.data();
+    const double* of_facet = sums.data();
+    for (std::size_t facet = begin; facet < end; ++facet, of_facet += frame_.rank + kMoreSums) {
+      table_.offsets[facet] = of_facet[kDeterminantSum];
+      if (facet < layout_.simplicial) continue;
+      merged_surfaces_[facet - layout_.simplicial] = of_facet[kSurfaceSum];
+      next = std::copy_n(of_facet + kAreaVectorSum, frame_.rank, next);
+    }
+    if (next == area_vectors.data()) return;
+    const std::size_t merged = std::max(begin, layout_.simplicial);
+    project_areas(merged, {area_vectors.data(), next}, merged_areas_.data() + (merged - layout_.simplicial));
   }
 
   /// Areas of merged facets: of the projection of their simplices onto their plane. A simplex that faces
@@ -359,8 +367,7 @@ class TableMaker {
   // Where sums over simplices are made here.
   bool sums_simplices_ = false;
   HugeArray<double> simplex_determinants_;
-  std::vector<double> merged_areas_;  // of facets layout_.simplicial and on
-  std::vector<double> surfaces_;      // of each block of facets
+  std::vector<double> merged_areas_, merged_surfaces_;  // of facets layout_.simplicial and on
   FacetTable table_;
 };
 

@@ -207,7 +207,9 @@ class HullBuilder {
     return HullBuilder(points_, options_, start_, input_bytes_, true).run();
   }
 
-  std::vector<bool> corners() { return find_corners(complex(), 0, complex().row_count, points_.rows); }
+  std::vector<bool> corners() {
+    return find_corners(complex(), 0, complex().row_count, points_.rows, growth_->work().most_vertices());
+  }
 
   /// Rank 1 has no growth.
   void make_segment() {

@@ -3,6 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <vector>
 
 #include "approx/gradient_length.h"
@@ -15,7 +17,7 @@
 namespace ndhull {
 namespace {
 
-constexpr std::size_t kRowsAhead = 24;  // whose way from memory has begun
+constexpr std::size_t kRowsAhead = 24, kFacetsAhead = 12;  // whose way from memory has begun
 
 /// The vertices of some facets one after the other, as rows of the points.
 class VertexLister {
@@ -47,72 +49,173 @@ class VertexLister {
   std::size_t count_ = 0;                  // of its values
 };
 
+/// What one simplex adds to the sums of its facet.
 template <std::size_t D>
-void sum_simplices_of(const SimplicialComplex& complex, std::span<const double> determinants,
-                      const FacetLayout& layout, std::size_t begin, SimplexSums& sums) {
-  const GradientLength<D> length_of(layout.gradient_factor);
-  std::fill(sums.area_vectors.begin(), sums.area_vectors.end(), 0.0);
-  std::size_t merged = 0;
-  for (std::size_t i = 0; i < sums.determinants.size(); ++i) {
-    const std::span<const SimplexId> simplices =
-        layout.simplices_of(FacetId{static_cast<std::uint32_t>(begin + i)});
-    if (begin + i < layout.simplicial) {
-      sums.determinants[i] = determinants[simplices[0].value];
-      continue;
-    }
-    const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
-    double* const area_vector = sums.area_vectors.data() + merged++ * D;
-    double sum = 0.0;
-    for (std::size_t s = 0; s < simplices.size(); ++s) {
-      const SimplexId later = layout.simplices[std::min(first + s + kRowsAhead, layout.simplices.size() - 1)];
-      prefetch(complex.plane(later).data(), D);
-      prefetch(&determinants[later.value]);
-      const double* const plane = complex.plane(simplices[s]).data();
-      const double determinant = determinants[simplices[s].value];
-      for (std::size_t k = 0; k < D; ++k) area_vector[k] += determinant * plane[k];
-      sums.surface += determinant * length_of(plane);
-      sum += determinant;
-    }
-    sums.determinants[i] = sum;
-  }
+void add_simplex(const GradientLength<D>& length_of, double determinant, const double* plane, double* sums) {
+  sums[kDeterminantSum] += determinant;
+  sums[kSurfaceSum] += determinant * length_of(plane);
+  for (std::size_t k = 0; k < D; ++k) sums[kAreaVectorSum + k] += determinant * plane[k];
 }
+
+/// Looks at facets with lists of simplices or vertices.
+class ListedFacets {
+ public:
+  ListedFacets(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+               const CertificatePoints& points, const double* normals, const ListedDots& dots,
+               const SimplexSums& sums)
+      : complex_(complex),
+        layout_(layout),
+        vertices_(vertices),
+        points_(points),
+        normals_(normals),
+        dots_(dots),
+        sums_(sums),
+        sums_width_(complex.rank + kMoreSums),
+        words_((points.rows.size() / points.dimension + kBitsInWord - 1) / kBitsInWord) {}
+
+  void run() {
+    if (is_better_by_rows()) {
+      call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { look_at_rows<d>(); });
+    } else {
+      call_with_dimension<1, kMaxRank>(complex_.rank, [&](auto d) { look_at_facets<d>(); });
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBitsInWord = 64;
+
+  bool wants_sums() const { return !sums_.determinants.empty(); }
+
+  /// Can one thread keep what is found of each facet near, while rows pass by in the order of memory?
+  bool is_better_by_rows() const {
+    constexpr std::size_t kNear = std::size_t{6} << 20, kRowBytesPerByte = 4;
+    const std::size_t bytes = 8 * layout_.facets * (words_ + sums_width_);
+    return wants_sums() && vertices_ == nullptr && !has_more_threads() && bytes <= kNear &&
+           kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;
+  }
+
+  /// Facet by facet: its simplices are anywhere in memory.
+  template <std::size_t D>
+  void look_at_facets() {
+    const GradientLength<D> length_of(wants_sums() ? layout_.gradient_factor
+                                                   : std::vector<double>(complex_.rank * complex_.rank));
+    tbb::enumerable_thread_specific<VertexLister> lister_of_thread([&] { return VertexLister(points_); });
+    for_each_block(
+        layout_.facets - layout_.in_place, kListedAtATime, [&](std::size_t begin, std::size_t end) {
+          VertexLister& lister = lister_of_thread.local();
+          lister.clear();
+          const std::size_t first = layout_.in_place + begin, count = end - begin;
+          for (std::size_t i = 0; i < count; ++i)
+            list_vertices(static_cast<std::uint32_t>(first + i), lister);
+          find_dots(first, lister.rows(), count);
+          if (!wants_sums()) return;
+          std::array<double, kListedAtATime*(D + kMoreSums)> sums{};
+          for (std::size_t i = 0; i < count; ++i)
+            sum_simplices<D>(length_of, static_cast<std::uint32_t>(first + i), sums.data() + i * sums_width_);
+          sums_.take(first, first + count, std::span(sums).first(count * sums_width_));
+        });
+  }
+
+  void list_vertices(std::uint32_t facet, VertexLister& lister) const {
+    if (vertices_ != nullptr) {
+      lister.add(as_ids<PointId>(vertices_->row(facet - layout_.in_place)), facet);
+    } else {
+      const std::span<const SimplexId> simplices = layout_.simplices_of(FacetId{facet});
+      for (std::size_t i = 0; i < simplices.size(); ++i) {
+        prefetch(complex_.vertices(later_simplex(simplices, i)).data(), complex_.rank);
+        lister.add(complex_.vertices(simplices[i]), facet);
+      }
+    }
+    lister.end_facet();
+  }
+
+  template <std::size_t D>
+  void sum_simplices(const GradientLength<D>& length_of, std::uint32_t facet, double* sums) const {
+    const std::span<const SimplexId> simplices = layout_.simplices_of(FacetId{facet});
+    for (std::size_t i = 0; i < simplices.size(); ++i) {
+      const SimplexId later = later_simplex(simplices, i);
+      prefetch(complex_.plane(later).data(), D);
+      prefetch(&sums_.determinants[later.value]);
+      add_simplex<D>(length_of, sums_.determinants[simplices[i].value], complex_.plane(simplices[i]).data(),
+                     sums);
+    }
+  }
+
+  /// Some places behind simplex `i` of a facet.
+  SimplexId later_simplex(std::span<const SimplexId> simplices, std::size_t i) const {
+    const auto first = static_cast<std::size_t>(simplices.data() - layout_.simplices.data());
+    return layout_.simplices[std::min(first + i + kRowsAhead, layout_.simplices.size() - 1)];
+  }
+
+  /// Row by row: of each facet the sums and one bit for each vertex.
+  template <std::size_t D>
+  void look_at_rows() {
+    const GradientLength<D> length_of(layout_.gradient_factor);
+    std::vector<double> sums(layout_.facets * sums_width_);
+    std::vector<std::uint64_t> is_vertex(layout_.facets * words_);
+    const auto last = static_cast<std::uint32_t>(complex_.row_count - 1);
+    for (std::uint32_t row = 0; row <= last; ++row) {
+      const std::size_t later = facet_of_row(std::min<std::uint32_t>(row + kFacetsAhead, last));
+      prefetch(is_vertex.data() + later * words_, words_);
+      prefetch(sums.data() + later * sums_width_, sums_width_);
+      const std::size_t facet = facet_of_row(row);
+      std::uint64_t* const bits = is_vertex.data() + facet * words_;
+      for (const PointId id : complex_.vertices(SimplexId{row})) {
+        const std::uint32_t point = points_.row_of_point[id.value];
+        bits[point / kBitsInWord] |= std::uint64_t{1} << (point % kBitsInWord);
+      }
+      add_simplex<D>(length_of, sums_.determinants[row], complex_.plane(SimplexId{row}).data(),
+                     sums.data() + facet * sums_width_);
+    }
+    IdRows lists;
+    for (std::size_t begin = 0; begin < layout_.facets; begin += kListedAtATime) {
+      const std::size_t end = std::min(begin + kListedAtATime, layout_.facets);
+      list_bits(std::span(is_vertex).subspan(begin * words_, (end - begin) * words_), lists);
+      find_dots(begin, lists, end - begin);
+      sums_.take(begin, end, std::span(sums).subspan(begin * sums_width_, (end - begin) * sums_width_));
+    }
+  }
+
+  std::size_t facet_of_row(std::uint32_t row) const { return layout_.facet_of(SimplexId{row}).value; }
+
+  /// One list for each `words_` words of bits.
+  void list_bits(std::span<const std::uint64_t> bits, IdRows& lists) const {
+    lists.begin.assign(1, 0);
+    lists.values.resize(std::max(lists.values.size(), bits.size() * kBitsInWord));  // if all were set
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < bits.size(); i += words_) {
+      for (std::size_t word = 0; word < words_; ++word)
+        for (std::uint64_t left = bits[i + word]; left != 0; left &= left - 1)
+          lists.values[count++] = static_cast<std::uint32_t>(word * kBitsInWord) +
+                                  static_cast<std::uint32_t>(std::countr_zero(left));
+      lists.begin.push_back(count);
+    }
+  }
+
+  /// Of facets `first` and on.
+  void find_dots(std::size_t first, const IdRows& lists, std::size_t count) const {
+    listed_dots(points_.dimension, {normals_ + first * points_.dimension, count * points_.dimension},
+                points_.rows, lists, dots_.low.subspan(first, count), dots_.high.subspan(first, count),
+                dots_.close.subspan(first - layout_.in_place, count));
+  }
+
+  const SimplicialComplex& complex_;
+  const FacetLayout& layout_;
+  const IdRows* vertices_;
+  const CertificatePoints& points_;
+  const double* normals_;
+  const ListedDots& dots_;
+  const SimplexSums& sums_;
+  std::size_t sums_width_;
+  std::size_t words_;  // of bits for all points
+};
 
 }  // namespace
 
 void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
                    const CertificatePoints& points, const double* normals, const ListedDots& dots,
-                   const VisitFacets& also) {
-  tbb::enumerable_thread_specific<VertexLister> lister_of_thread([&] { return VertexLister(points); });
-  const auto list_vertices = [&](std::uint32_t facet, VertexLister& lister) {
-    if (vertices != nullptr) {
-      lister.add(as_ids<PointId>(vertices->row(facet - layout.in_place)), facet);
-    } else {
-      const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
-      const auto first = static_cast<std::size_t>(simplices.data() - layout.simplices.data());
-      for (std::size_t i = 0; i < simplices.size(); ++i) {
-        const std::size_t later = std::min(first + i + kRowsAhead, layout.simplices.size() - 1);
-        prefetch(complex.vertices(layout.simplices[later]).data());
-        lister.add(complex.vertices(simplices[i]), facet);
-      }
-    }
-    lister.end_facet();
-  };
-  for_each_block(layout.facets - layout.in_place, kListedAtATime, [&](std::size_t begin, std::size_t end) {
-    VertexLister& lister = lister_of_thread.local();
-    lister.clear();
-    const std::size_t first = layout.in_place + begin, count = end - begin;
-    for (std::size_t i = 0; i < count; ++i) list_vertices(static_cast<std::uint32_t>(first + i), lister);
-    listed_dots(points.dimension, {normals + first * points.dimension, count * points.dimension}, points.rows,
-                lister.rows(), dots.low.subspan(first, count), dots.high.subspan(first, count),
-                dots.close.subspan(begin, count));
-    if (also) also(first, first + count);
-  });
-}
-
-void sum_simplices(const SimplicialComplex& complex, std::span<const double> determinants,
-                   const FacetLayout& layout, std::size_t begin, SimplexSums& sums) {
-  call_with_dimension<1, kMaxRank>(
-      complex.rank, [&](auto d) { sum_simplices_of<d>(complex, determinants, layout, begin, sums); });
+                   const SimplexSums& sums) {
+  ListedFacets(complex, layout, vertices, points, normals, dots, sums).run();
 }
 
 }  // namespace ndhull

@@ -21,30 +21,29 @@ struct ListedDots {
   std::span<std::uint32_t> close;  // per facet from layout.in_place on
 };
 
-/// So many facets are looked at by one thread at a time.
+/// Sums over the simplices of one facet, as rows of rank + 2: of determinants, of determinants times
+/// |gradient of the plane|, and of determinants times planes.
+inline constexpr std::size_t kDeterminantSum = 0, kSurfaceSum = 1, kAreaVectorSum = 2, kMoreSums = 2;
+
+/// So many facets at most are looked at by one thread at a time.
 inline constexpr std::size_t kListedAtATime = 64;
-/// Finds what else is wanted of the facets [begin, end).
-using VisitFacets = std::function<void(std::size_t begin, std::size_t end)>;
 
-/// `vertices`: of the facets from layout.in_place on; null: those of their simplices. `normals`: facets x
-/// dimension. `also`: called for blocks of facets, by the thread that looks at them.
-/// Cost  a random read of 4 rank bytes for each simplex, and a product for each vertex of a facet.
-void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
-                   const CertificatePoints& points, const double* normals, const ListedDots& dots,
-                   const VisitFacets& also);
-
-/// Sums over the simplices of facets.
+/// Sums for those who want them. The planes and determinants are those of the simplices
+/// (FacetLayout::planes).
 struct SimplexSums {
-  std::span<double> determinants;  // per facet
-  /// Per merged facet x rank: of determinants times planes.
-  std::span<double> area_vectors;
-  double surface = 0.0;  // of determinants times |gradient of the plane|, over all
+  std::span<const double> determinants;  ///< of all simplices; empty: none is wanted
+  /// Takes the sums of the facets [begin, end), by the thread that looks at them. Of those of one simplex
+  /// only the determinant counts.
+  std::function<void(std::size_t begin, std::size_t end, std::span<const double> sums)> take;
 };
 
-/// Of facets [begin, begin + sums.determinants.size()), the planes and determinants being those of the
-/// simplices (FacetLayout::planes). `area_vectors` has rows for those that are merged.
-/// Cost  a random read of 8 rank + 8 bytes for each simplex.
-void sum_simplices(const SimplicialComplex& complex, std::span<const double> determinants,
-                   const FacetLayout& layout, std::size_t begin, SimplexSums& sums);
+/// `vertices`: of the facets from layout.in_place on; null: those of their simplices. `normals`: facets x
+/// dimension. All bits are the same for any number of threads.
+/// Cost  for each simplex a random read of 4 rank bytes and one of 8 rank + 8 for its sums. With one thread
+///       the rows are read as they stand where sums of few facets are wanted; these stay in cache, 8 bytes
+///       for each number and each 64 of the points. A product for each vertex of a facet.
+void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+                   const CertificatePoints& points, const double* normals, const ListedDots& dots,
+                   const SimplexSums& sums);
 
 }  // namespace ndhull

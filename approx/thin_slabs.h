@@ -11,7 +11,7 @@
 
 namespace ndhull {
 
-/// The determinants of all rows of a complex (chain_outwards), with signs that make volumes positive.
+/// The determinants of all rows of a complex (find_outwards), with signs that make volumes positive.
 using FindDeterminants = std::function<std::span<const double>()>;
 
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.

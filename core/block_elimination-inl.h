@@ -30,6 +30,7 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D], Lane* smallest
   const Tag tag;
   Lane determinant = hn::Set(tag, 1.0);
   if (!kPivots) *smallest = hn::Set(tag, HUGE_VAL);
+  HWY_UNROLL(16)  // all of it: D is at most kMaxRank
   for (std::size_t column = 0; column < D; ++column) {
     for (std::size_t row = column + 1; kPivots && row < D; ++row) {
       const auto larger = hn::Gt(hn::Abs(matrix[row][column]), hn::Abs(matrix[column][column]));
@@ -43,8 +44,10 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D], Lane* smallest
     determinant = hn::Mul(determinant, matrix[column][column]);
     if (!kPivots) *smallest = hn::Min(*smallest, hn::Abs(matrix[column][column]));
     const Lane inverse = hn::Div(hn::Set(tag, 1.0), matrix[column][column]);
+    HWY_UNROLL(16)
     for (std::size_t row = column + 1; row < D; ++row) {
       const Lane factor = hn::Neg(hn::Mul(matrix[row][column], inverse));
+      HWY_UNROLL(16)
       for (std::size_t k = column + 1; k <= D; ++k)
         matrix[row][k] = hn::MulAdd(factor, matrix[column][k], matrix[row][k]);
     }

@@ -27,21 +27,17 @@ namespace ndhull {
 void solve_simplices(SimplicialComplex& complex, const double* points,
                      std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 
-/// The same determinants with most of them from a neighbour's: simplices with planes a and b, and vertices v
-/// and w opposite their ridge, have determinants in the ratio of 1 - b.v to 1 - a.w, how deep each vertex is
-/// below the other's plane. For hulls without a shifted point, whose planes go through their vertices.
+/// The same determinants of a hull without a shifted point, whose planes go through their vertices: they are
+/// not solved for.
 ///
 /// Shapes  points: point_count x rank. determinants: complex.row_count; of free rows 0.
 /// Returns whether the areas times their normals sum to 0, as those of a closed surface do, to 1e-11 of
 ///         their sizes: if not, planes have lost digits, and the simplices are to be solved.
-/// Error   rank roundings over the depth for each simplex on the way from one that was solved, of which there
-///         are some ten: with depths down to 1e-4 up to 1e-10 in 8-d. Measured on spheres: mostly 1e-14, at
-///         most 1.3e-11.
-/// Cost    O(rank) a simplex and random reads of a plane, a determinant and a mark, by one thread, in the
-/// order
-///         of the rows; one in ten, which is before all of its neighbours, those with depths below 1e-4 and
-///         those beside a simplex without volume are solved.
-bool chain_determinants(const SimplicialComplex& complex, const double* points, std::size_t point_count,
-                        std::span<double> determinants);
+/// Error   what elimination without pivots loses where no diagonal entry is below 1e-4; simplices with
+/// smaller
+///         ones are solved.
+/// Cost    O(rank^3) a simplex, eight simplices at a time, three fifths of solving them.
+bool find_determinants(const SimplicialComplex& complex, const double* points,
+                       std::span<double> determinants);
 
 }  // namespace ndhull

@@ -84,6 +84,9 @@ struct GrowthWork {
   GrowthOptions options;
   GrowthCounters counters;
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
+
+  /// The complex has no more vertices: those of the first simplex and the points added.
+  std::size_t most_vertices() const { return counters.insertions + complex.rank + 1; }
 };
 
 /// Which points growth begins with. Points placed early are moved again and again.

@@ -45,9 +45,9 @@ void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t
 }  // namespace
 
 std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t begin, std::size_t end,
-                               std::size_t point_count) {
+                               std::size_t point_count, std::size_t most) {
   std::vector<std::uint8_t> is_corner(point_count, 0);
-  std::atomic<std::size_t> others = point_count;  // that are no corner as far as is known
+  std::atomic<std::size_t> others = std::min(point_count, most);  // corners that may still be found
   for_each_block(end - begin, kRowsAtATime, [&](std::size_t first, std::size_t last) {
     if (others.load(std::memory_order_relaxed) == 0) return;
     std::size_t found = 0;

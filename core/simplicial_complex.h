@@ -66,9 +66,10 @@ struct GroupedComplex {
 };
 
 /// One flag for each of `point_count` points: is it a vertex of a live simplex among rows `begin` to, not
-/// including, `end`? Cost  O(rows rank), by all threads, less where all points are; a byte a point.
+/// including, `end`? `most`: no more are. Cost  O(rows rank), by all threads, less where so many points are;
+/// a byte a point.
 std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t begin, std::size_t end,
-                               std::size_t point_count);
+                               std::size_t point_count, std::size_t most = SIZE_MAX);
 
 /// Row `from` is now row `to`.
 struct RowMove {
