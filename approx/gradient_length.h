@@ -24,9 +24,8 @@ class GradientLength {
     }
   }
 
-  double operator()(const double* plane) const {
-    return std::sqrt(is_diagonal_ ? scaled(plane) : full(plane));
-  }
+  double operator()(const double* plane) const { return std::sqrt(squared(plane)); }
+  double squared(const double* plane) const { return is_diagonal_ ? scaled(plane) : full(plane); }
 
  private:
   /// Squared, with the sums of all rows side by side.

@@ -95,6 +95,7 @@ class SeedPlanes {
   }
 
   double length_of(const double* plane) const { return length_of_(plane); }
+  double length_sq_of(const double* plane) const { return length_of_.squared(plane); }
 
  private:
   FittedPlane measured(const SeedPlane<D>& own, std::span<const std::uint32_t> vertices) {

@@ -115,37 +115,37 @@ class Partitioner {
 
   /// Live rows, those whose planes are nearest to the centre first.
   std::vector<std::uint32_t> seeds_by_distance() const {
-    std::vector<float> distances(complex_.row_count);
-    std::vector<SeedBlock> blocks((complex_.row_count + kPlacesInBlock - 1) / kPlacesInBlock);
+    std::vector<std::uint8_t> classes(complex_.row_count);
+    std::vector<ClassPlaces> blocks((complex_.row_count + kPlacesInBlock - 1) / kPlacesInBlock);
     const auto for_live_rows = [&](const auto& visit) {
       for_each_block(complex_.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
+        ClassPlaces& places = blocks[begin / kPlacesInBlock];
         for (std::size_t row = begin; row < end; ++row)
-          if (is_live(static_cast<std::uint32_t>(row))) visit(row, blocks[begin / kPlacesInBlock]);
+          if (is_live(static_cast<std::uint32_t>(row))) visit(row, places);
       });
     };
-    for_live_rows([&](std::size_t row, SeedBlock& block) {
-      const auto distance = static_cast<float>(1.0 / planes_.length_of(complex_.planes.data() + row * D));
-      distances[row] = distance;
-      block.nearest = std::min(block.nearest, distance);
-      block.furthest = std::max(block.furthest, distance);
-    });
-    float nearest = HUGE_VALF, furthest = 0.0f;
-    for (const SeedBlock& block : blocks) {
-      nearest = std::min(nearest, block.nearest);
-      furthest = std::max(furthest, block.furthest);
+    // The further a plane, the shorter its gradient. Some rows tell about how far planes are.
+    constexpr std::size_t kTold = 1024;
+    const std::size_t step = complex_.row_count / kTold + 1;
+    double longest_sq = 0.0, shortest_sq = HUGE_VAL;
+    for (std::size_t row = 0; row < complex_.row_count; row += step) {
+      if (!is_live(static_cast<std::uint32_t>(row))) continue;
+      const double length_sq = planes_.length_sq_of(complex_.planes.data() + row * D);
+      longest_sq = std::max(longest_sq, length_sq);
+      shortest_sq = std::min(shortest_sq, length_sq);
     }
-    const float scale = furthest > nearest ? (kClasses - 0.01f) / (furthest - nearest) : 0.0f;
-    const auto class_of = [&](std::size_t row) {
-      return std::min<std::size_t>(kClasses - 1,
-                                   static_cast<std::size_t>(scale * (distances[row] - nearest)));
-    };
-    for_live_rows([&](std::size_t row, SeedBlock& block) { ++block.places[class_of(row)]; });
+    const double scale = longest_sq > shortest_sq ? kClasses / (longest_sq - shortest_sq) : 0.0;
+    for_live_rows([&](std::size_t row, ClassPlaces& places) {
+      const double place = scale * (longest_sq - planes_.length_sq_of(complex_.planes.data() + row * D));
+      classes[row] = static_cast<std::uint8_t>(std::clamp(place, 0.0, kClasses - 1.0));
+      ++places[classes[row]];
+    });
     std::uint32_t next = 0;
     for (std::size_t c = 0; c < kClasses; ++c)
-      for (SeedBlock& block : blocks) next += std::exchange(block.places[c], next);
+      for (ClassPlaces& places : blocks) next += std::exchange(places[c], next);
     std::vector<std::uint32_t> seeds(live_count_);
-    for_live_rows([&](std::size_t row, SeedBlock& block) {
-      seeds[block.places[class_of(row)]++] = static_cast<std::uint32_t>(row);
+    for_live_rows([&](std::size_t row, ClassPlaces& places) {
+      seeds[places[classes[row]]++] = static_cast<std::uint32_t>(row);
     });
     return seeds;
   }
@@ -172,11 +172,8 @@ class Partitioner {
     std::uint32_t slab = 0;        // that it was computed for
     std::uint32_t is_in_slab = 0;  // a vertex of one of its simplices
   };
-  /// What seeds_by_distance notes of a block of rows: their distances, and where those of each class go.
-  struct SeedBlock {
-    float nearest = HUGE_VALF, furthest = 0.0f;
-    std::array<std::uint32_t, kClasses> places{};
-  };
+  /// Where the seeds of a block of rows go, for each class.
+  using ClassPlaces = std::array<std::uint32_t, kClasses>;
   /// How far the lists of facets are.
   struct Ends {
     std::size_t members, vertices;
