@@ -188,12 +188,15 @@ void Approximation::join_neighbours(Covering& covering, double width) const {
 }
 
 /// Of a hull without shifted points: no plane changes.
-std::span<const double> Approximation::find_determinants() {
+std::span<const double> Approximation::find_determinants(const BlockWork& also) {
   SimplicialComplex& complex = growth_.work().complex;
-  if (determinants_.data() == nullptr) {
+  if (determinants_.data() != nullptr) {
+    constexpr std::size_t kRowsInBlock = 1 << 13;
+    for_each_block(complex.row_count, kRowsInBlock, also);
+  } else {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex.row_count);
-    find_outwards(complex, growth_.coordinates(), {determinants_.data(), complex.row_count});
+    find_outwards(complex, growth_.coordinates(), {determinants_.data(), complex.row_count}, also);
     hull_.statistics.detail_seconds.emplace_back("volumes", seconds_since(start));
   }
   return {determinants_.data(), complex.row_count};
@@ -208,7 +211,7 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
                             : is_convex()                          ? PointsAbove::kNoPoint
                                                                    : PointsAbove::kLeftOut;
   FindDeterminants find;
-  if (above != PointsAbove::kAny) find = [this] { return find_determinants(); };
+  if (above != PointsAbove::kAny) find = [this](const BlockWork& also) { return find_determinants(also); };
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
   if (!facets || !facets->is_listed()) return facets;

@@ -14,6 +14,7 @@
 #include "approx/slab_cover.h"
 #include "approx/star_hull.h"
 #include "approx/width_space.h"
+#include "core/blocks.h"
 #include "core/huge_array.h"
 #include "core/point_tree.h"
 
@@ -65,7 +66,7 @@ class Approximation {
   bool is_worth_joining(std::size_t facets, std::size_t simplices) const;
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
-  std::span<const double> find_determinants();
+  std::span<const double> find_determinants(const BlockWork& also);
   std::optional<DualFacets> find_disjoint_slabs(double width);
   bool is_final(const DualFacets& facets) const;
   Covering cover_width(double width, std::optional<DualFacets> slabs);

@@ -41,6 +41,8 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       limits_(options.limits, start, options.accuracy.facets > 0) {
   coordinates_ = HugeArray<double>(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
+  work_.rank = frame_.rank;
+  work_.point_count = points_.rows;
   work_.options.gradient_factor = std::move(gradient_factor);
   detail("frame", start_);
 }
@@ -90,8 +92,6 @@ std::uint64_t CertifiedGrowth::point_bytes() const {
 
 void CertifiedGrowth::start() {
   has_started_ = true;
-  work_.rank = frame_.rank;
-  work_.point_count = points_.rows;
   work_.points = coordinates_.data();
   work_.measure_phases = true;
   work_.options.seed = options_.seed;

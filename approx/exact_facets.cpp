@@ -46,8 +46,9 @@ void solve_outwards(SimplicialComplex& complex, const double* points,
   turn_outwards(determinants);
 }
 
-void find_outwards(SimplicialComplex& complex, const double* points, std::span<double> determinants) {
-  if (!find_determinants(complex, points, determinants))
+void find_outwards(SimplicialComplex& complex, const double* points, std::span<double> determinants,
+                   const BlockWork& also) {
+  if (!find_determinants(complex, points, determinants, also))
     return solve_outwards(complex, points, {}, determinants);
   turn_outwards(determinants);
 }

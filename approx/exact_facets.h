@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/blocks.h"
 #include "core/growth.h"
 #include "core/simplicial_complex.h"
 
@@ -21,8 +22,11 @@ std::vector<std::uint8_t> find_shifted(const GrowthWork& work);
 void solve_outwards(SimplicialComplex& complex, const double* points,
                     std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 
-/// The same of a hull without shifted points: find_determinants, or solved where that loses digits.
-void find_outwards(SimplicialComplex& complex, const double* points, std::span<double> determinants);
+/// The same of a hull without shifted points: find_determinants, or solved where that loses digits. `also`:
+/// as there.
+void find_outwards(
+    SimplicialComplex& complex, const double* points, std::span<double> determinants,
+    const BlockWork& also = [](std::size_t, std::size_t) {});
 
 /// How many facets coplanar merging leaves of the simplices; `work` stays as it is.
 ///

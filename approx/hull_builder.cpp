@@ -172,8 +172,10 @@ class HullBuilder {
   void find_determinants(std::span<const std::uint8_t> is_shifted) {
     const Clock::time_point start = Clock::now();
     determinants_ = HugeArray<double>(complex().row_count);
-    solve_outwards(complex(), growth_->coordinates(), is_shifted,
-                   {determinants_.data(), complex().row_count});
+    const std::span<double> found(determinants_.data(), complex().row_count);
+    const bool keeps_planes = hull_.is_approximate && is_shifted.empty();
+    if (keeps_planes) find_outwards(complex(), growth_->coordinates(), found);
+    if (!keeps_planes) solve_outwards(complex(), growth_->coordinates(), is_shifted, found);
     detail("volumes", start);
   }
 
@@ -207,9 +209,7 @@ class HullBuilder {
     return HullBuilder(points_, options_, start_, input_bytes_, true).run();
   }
 
-  std::vector<bool> corners() {
-    return find_corners(complex(), 0, complex().row_count, points_.rows, growth_->work().most_vertices());
-  }
+  std::vector<bool> corners() { return find_corners(growth_->work()); }
 
   /// Rank 1 has no growth.
   void make_segment() {

@@ -47,8 +47,7 @@ void CertifiedGrowth::certify_by_search(std::span<const PointId> points, double 
 
 /// Points that are vertices of no simplex and not proven inside; marks the vertices in certificate_wanted_.
 std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
-  certificate_wanted_ =
-      find_corners(work_.complex, 0, work_.complex.row_count, points_.rows, work_.most_vertices());
+  certificate_wanted_ = find_corners(work_);
   std::vector<PointId> rest;
   for (std::uint32_t id = 0; id < points_.rows; ++id) {
     if (!certificate_wanted_[id] && (proven_.empty() || !proven_[id])) rest.push_back(PointId{id});

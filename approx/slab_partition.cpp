@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
+#include "approx/seed_classes.h"
 #include "approx/seed_planes.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
@@ -41,9 +41,7 @@ constexpr std::size_t kFewSimplices = std::size_t{1} << 14;
 template <std::size_t D>
 constexpr std::size_t kNeighboursIn = std::min(D, std::max<std::size_t>(5, (3 * D + 4) / 5));
 constexpr double kManySimplices = 64.0;
-constexpr std::size_t kPlacesInBlock = 1 << 13;
-/// Classes of seeds by their planes' distance from the centre.
-constexpr std::size_t kClasses = 64;
+constexpr std::size_t kRowsPrepared = 1 << 13;
 /// Rows whose way from memory has begun.
 constexpr std::size_t kAhead = 4, kSeedsAhead = 8, kPlanesAhead = 3;
 
@@ -63,20 +61,24 @@ class Partitioner {
         coordinates_(coordinates),
         above_(above),
         planes_(complex, space, factor, above, width),
+        classes_(complex, [this](std::size_t row) { return length_sq_of(row); }),
         dots_(space.point_count()) {
     facets_.complex = &complex;
     facets_.facet_of.resize(complex.row_count);
     facets_.marks = SimplexMarks(complex.row_count, space.point_count());
-    for_each_block(complex.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
-      for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
-        std::uint32_t mix = 0;
-        for (std::size_t k = 0; k < D; ++k) mix ^= row_of(row)[k];
-        facets_.marks.put(row, mix, !is_live(row));
-        if (!is_live(row)) facets_.facet_of[row] = kNone;
-      }
-    });
     for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
     members_ = HugeArray<std::uint32_t>(live_count_ + D);
+  }
+
+  /// To be called for all rows before anything else, some at a time, by any thread.
+  void prepare(std::size_t begin, std::size_t end) {
+    for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+      std::uint32_t mix = 0;
+      for (std::size_t k = 0; k < D; ++k) mix ^= row_of(row)[k];
+      facets_.marks.put(row, mix, !is_live(row));
+      if (!is_live(row)) facets_.facet_of[row] = kNone;
+      classes_.put(row, length_sq_of(row));
+    }
   }
 
   /// Of slabs where nothing is taken. Where they are large a few tell.
@@ -114,41 +116,7 @@ class Partitioner {
   DualFacets take_marks() { return std::move(facets_); }
 
   /// Live rows, those whose planes are nearest to the centre first.
-  std::vector<std::uint32_t> seeds_by_distance() const {
-    std::vector<std::uint8_t> classes(complex_.row_count);
-    std::vector<ClassPlaces> blocks((complex_.row_count + kPlacesInBlock - 1) / kPlacesInBlock);
-    const auto for_live_rows = [&](const auto& visit) {
-      for_each_block(complex_.row_count, kPlacesInBlock, [&](std::size_t begin, std::size_t end) {
-        ClassPlaces& places = blocks[begin / kPlacesInBlock];
-        for (std::size_t row = begin; row < end; ++row)
-          if (is_live(static_cast<std::uint32_t>(row))) visit(row, places);
-      });
-    };
-    // The further a plane, the shorter its gradient. Some rows tell about how far planes are.
-    constexpr std::size_t kTold = 1024;
-    const std::size_t step = complex_.row_count / kTold + 1;
-    double longest_sq = 0.0, shortest_sq = HUGE_VAL;
-    for (std::size_t row = 0; row < complex_.row_count; row += step) {
-      if (!is_live(static_cast<std::uint32_t>(row))) continue;
-      const double length_sq = planes_.length_sq_of(complex_.planes.data() + row * D);
-      longest_sq = std::max(longest_sq, length_sq);
-      shortest_sq = std::min(shortest_sq, length_sq);
-    }
-    const double scale = longest_sq > shortest_sq ? kClasses / (longest_sq - shortest_sq) : 0.0;
-    for_live_rows([&](std::size_t row, ClassPlaces& places) {
-      const double place = scale * (longest_sq - planes_.length_sq_of(complex_.planes.data() + row * D));
-      classes[row] = static_cast<std::uint8_t>(std::clamp(place, 0.0, kClasses - 1.0));
-      ++places[classes[row]];
-    });
-    std::uint32_t next = 0;
-    for (std::size_t c = 0; c < kClasses; ++c)
-      for (ClassPlaces& places : blocks) next += std::exchange(places[c], next);
-    std::vector<std::uint32_t> seeds(live_count_);
-    for_live_rows([&](std::size_t row, ClassPlaces& places) {
-      seeds[places[classes[row]]++] = static_cast<std::uint32_t>(row);
-    });
-    return seeds;
-  }
+  std::vector<std::uint32_t> seeds_by_distance() const { return classes_.sorted(live_count_); }
 
   /// `seeds`: seeds_by_distance().
   DualFacets run(const SlabSizes& sizes, std::vector<std::uint32_t> seeds) {
@@ -172,8 +140,6 @@ class Partitioner {
     std::uint32_t slab = 0;        // that it was computed for
     std::uint32_t is_in_slab = 0;  // a vertex of one of its simplices
   };
-  /// Where the seeds of a block of rows go, for each class.
-  using ClassPlaces = std::array<std::uint32_t, kClasses>;
   /// How far the lists of facets are.
   struct Ends {
     std::size_t members, vertices;
@@ -182,6 +148,9 @@ class Partitioner {
   bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
   const std::uint32_t* row_of(std::uint32_t row) const {
     return complex_.topology.data() + std::size_t{row} * 2 * D;
+  }
+  double length_sq_of(std::size_t row) const {
+    return planes_.length_sq_of(complex_.planes.data() + row * D);
   }
   double dot(const std::array<double, D>& plane, std::uint32_t point) const {
     return dot_in_frame<D>(plane.data(), coordinates_ + std::size_t{point} * D);
@@ -358,6 +327,7 @@ class Partitioner {
   const double* coordinates_;
   PointsAbove above_;
   SeedPlanes<D> planes_;
+  SeedClasses classes_;
   std::vector<Dot> dots_;  // per point
   bool are_turned_ = false;
   std::uint32_t slab_ = 0;            // each time that a plane is new
@@ -375,6 +345,13 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
   if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
+    const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
+    // One thread finds determinants, which will be wanted anyway, while it has the rows near.
+    if (find_determinants && !has_more_threads()) {
+      find_determinants(prepare);
+    } else {
+      for_each_block(complex.row_count, kRowsPrepared, prepare);
+    }
     const SlabSizes sizes = partitioner.slab_sizes();
     if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
     if (find_determinants && partitioner.is_better_by_stars(sizes))
@@ -382,9 +359,10 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
     if (!find_determinants) return partitioner.run(sizes, std::move(seeds));
-    // Slabs are one thread's work: another one finds the determinants, which will be wanted anyway.
+    // Slabs are one thread's work: another one finds the determinants.
     DualFacets facets;
-    do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); }, [&] { find_determinants(); });
+    do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); },
+              [&] { find_determinants([](std::size_t, std::size_t) {}); });
     return facets;
   });
 }

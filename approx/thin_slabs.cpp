@@ -64,7 +64,8 @@ class ThinPartitioner {
 
   DualFacets run() {
     find_stars();
-    do_beside([&] { take_all_stars(); }, [&] { determinants_ = find_determinants_(); });
+    do_beside([&] { take_all_stars(); },
+              [&] { determinants_ = find_determinants_([](std::size_t, std::size_t) {}); });
     take_pairs();
     take_others();
     // Planes between two others, and raised ones, are no nearer.

@@ -7,18 +7,20 @@
 
 #include "approx/dual_facets.h"
 #include "approx/width_space.h"
+#include "core/blocks.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
 
-/// The determinants of all rows of a complex (find_outwards), with signs that make volumes positive.
-using FindDeterminants = std::function<std::span<const double>()>;
+/// The determinants of all rows of a complex, with signs that make volumes positive. `also` is called for
+/// blocks of all rows, by several threads, where they are computed while the rows are in cache.
+using FindDeterminants = std::function<std::span<const double>(const BlockWork& also)>;
 
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
 ///
 /// Shapes  facets: of `complex`, with each row's mark: taken are the free ones alone. coordinates: points x
 ///         rank, in the frame, of all points that the space may name. gradient_factor: rank x rank.
-///         find_determinants: asked for once.
+///         find_determinants: asked for them once.
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).

@@ -276,11 +276,12 @@ class DeterminantFinder {
 
 template <std::size_t D>
 bool find_determinants_of(const SimplicialComplex& complex, const double* points,
-                          std::span<double> determinants) {
+                          std::span<double> determinants, const BlockWork& also) {
   std::vector<AreaSums<D>> of_block((complex.row_count + kSimplicesInBlock - 1) / kSimplicesInBlock);
   for_each_block(complex.row_count, kSimplicesInBlock, [&](std::size_t begin, std::size_t end) {
     of_block[begin / kSimplicesInBlock] =
         DeterminantFinder<D>(complex, points, determinants).find(begin, end);
+    also(begin, end);
   });
   AreaSums<D> all;
   for (const AreaSums<D>& some : of_block) all.add(some);
@@ -294,9 +295,9 @@ void solve_simplices_any(SimplicialComplex& complex, const double* points,
 }
 
 bool find_determinants_any(const SimplicialComplex& complex, const double* points,
-                           std::span<double> determinants) {
+                           std::span<double> determinants, const BlockWork& also) {
   return call_with_dimension<2, kMaxRank>(
-      complex.rank, [&](auto d) { return find_determinants_of<d>(complex, points, determinants); });
+      complex.rank, [&](auto d) { return find_determinants_of<d>(complex, points, determinants, also); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -311,9 +312,9 @@ void solve_simplices(SimplicialComplex& complex, const double* points,
   NDHULL_BEST_OF(solve_simplices_any)(complex, points, is_shifted, determinants);
 }
 
-bool find_determinants(const SimplicialComplex& complex, const double* points,
-                       std::span<double> determinants) {
-  return NDHULL_BEST_OF(find_determinants_any)(complex, points, determinants);
+bool find_determinants(const SimplicialComplex& complex, const double* points, std::span<double> determinants,
+                       const BlockWork& also) {
+  return NDHULL_BEST_OF(find_determinants_any)(complex, points, determinants, also);
 }
 
 }  // namespace ndhull

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/blocks.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -36,8 +37,9 @@ void solve_simplices(SimplicialComplex& complex, const double* points,
 /// Error   what elimination without pivots loses where no diagonal entry is below 1e-4; simplices with
 /// smaller
 ///         ones are solved.
+/// `also`  is called for blocks of rows while they are in cache, by the thread that has them there.
 /// Cost    O(rank^3) a simplex, eight simplices at a time, three fifths of solving them.
-bool find_determinants(const SimplicialComplex& complex, const double* points,
-                       std::span<double> determinants);
+bool find_determinants(const SimplicialComplex& complex, const double* points, std::span<double> determinants,
+                       const BlockWork& also);
 
 }  // namespace ndhull

@@ -227,4 +227,8 @@ void start_growth(GrowthWork& work, GrownHull grown) {
   work.waiting_height = HUGE_VAL;
 }
 
+std::vector<bool> find_corners(const GrowthWork& work) {
+  return find_corners(work.complex, 0, work.complex.row_count, work.point_count, work.most_vertices());
+}
+
 }  // namespace ndhull

@@ -85,7 +85,7 @@ struct GrowthWork {
   GrowthCounters counters;
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
 
-  /// The complex has no more vertices: those of the first simplex and the points added.
+  /// The complex has no more vertices than those of the first simplex and the points added.
   std::size_t most_vertices() const { return counters.insertions + complex.rank + 1; }
 };
 
@@ -139,5 +139,8 @@ void link_outside(GrowthWork& work, std::uint32_t point, std::uint32_t row, doub
 
 /// Takes `point` out of the outside set that it is in. Cost O(points in the set).
 void take_from_outside(GrowthWork& work, std::uint32_t point);
+
+/// find_corners of all rows, knowing how many vertices there may be.
+std::vector<bool> find_corners(const GrowthWork& work);
 
 }  // namespace ndhull

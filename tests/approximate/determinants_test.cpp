@@ -13,9 +13,11 @@
 namespace ndhull {
 namespace {
 
+constexpr auto nothing = [](std::size_t, std::size_t) {};
+
 bool find(const GrownSphere& sphere, std::vector<double>& determinants) {
   determinants.assign(sphere.work.complex.row_count, NAN);
-  return find_determinants(sphere.work.complex, sphere.coordinates.data(), determinants);
+  return find_determinants(sphere.work.complex, sphere.coordinates.data(), determinants, nothing);
 }
 
 TEST(Determinants, AreThoseThatAreSolved) {

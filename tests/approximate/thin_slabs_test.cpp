@@ -43,7 +43,7 @@ struct ThinSlabs {
     }
     return partition_into_thin_slabs(
         space, coordinates.data(), factor, above, width,
-        [this] { return std::span<const double>(determinants); }, std::move(open));
+        [this](const BlockWork&) { return std::span<const double>(determinants); }, std::move(open));
   }
   DualFacets find(double width, std::size_t marked_points = 1000) const {
     return find(width, *sphere.space, PointsAbove::kNoPoint, sphere.coordinates, marked_points);
@@ -215,8 +215,9 @@ TEST(ThinSlabsExample, NeighboursOnACirclePairBelowALineBetweenTheirs) {
 TEST(ThinSlabsExample, ThePartitionAsksForThemWhereSlabsHoldFew) {
   const ThinSlabs slabs("120 s D7 t3");
   int asked = 0;
-  const FindDeterminants find = [&] {
+  const FindDeterminants find = [&](const BlockWork& also) {
     ++asked;
+    also(0, slabs.sphere.work.complex.row_count);
     return std::span<const double>(slabs.determinants);
   };
   const auto partition = [&](double width) {
