@@ -26,7 +26,10 @@ struct Clustered {
     solve_outwards(complex, sphere.coordinates.data(), {}, determinants);
     std::optional<DualFacets> facets =
         partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint,
-                             width, [&] { return std::span<const double>(determinants); });
+                             width, [&](const BlockWork& also) {
+                               also(0, complex.row_count);
+                               return std::span<const double>(determinants);
+                             });
     facet_of = facets->facet_of;
     for (std::size_t facet = 0; facet < facets->count(); ++facet)
       planes.emplace_back(facets->plane(facet).begin(), facets->plane(facet).end());
