@@ -215,10 +215,10 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
   if (!facets || !facets->is_listed()) return facets;
-  std::size_t most = std::max<std::size_t>(1, facets->members.size() / (kPartOfMean * facets->count()));
+  const std::size_t simplices = facets->begin.back();
+  std::size_t most = std::max<std::size_t>(1, simplices / (kPartOfMean * facets->count()));
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
-  if (is_degenerate() || has_few_small(facets->count(), facets->members.size()))
-    most = facets->members.size();
+  if (is_degenerate() || has_few_small(facets->count(), simplices)) most = simplices;
   join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
   return facets;
 }

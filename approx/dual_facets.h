@@ -14,6 +14,7 @@
 #include "approx/plane_fit.h"
 #include "approx/simplex_marks.h"
 #include "approx/width_space.h"
+#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/simplicial_complex.h"
 
@@ -34,8 +35,8 @@ struct DualFacets {
   bool are_far_from_centre = true;
 
   // What joining facets has to know; tops and lengths are known afterwards too. Not listed: empty.
-  std::vector<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
-  std::vector<std::uint32_t> begin;    ///< of each facet in `members`, and the end
+  HugeArray<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
+  std::vector<std::uint32_t> begin;  ///< of each facet in `members`, and the end
   /// Of facets of several simplices the different vertices, facet by facet; of others none.
   std::vector<PointId> vertices;
   std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end

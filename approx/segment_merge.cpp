@@ -288,7 +288,9 @@ class SegmentMerger {
     }
     for (std::uint32_t& facet : table_.facet_of)
       if (facet != kNone) facet = number_of[facet];
-    for (auto* list : {&table_.members, &table_.begin, &table_.vertex_begin}) *list = {};
+    table_.members = HugeArray<std::uint32_t>();
+    table_.begin = {};
+    table_.vertex_begin = {};
     table_.seeds.resize(used);
     table_.own_plane.resize(used);
     table_.tops.resize(used);

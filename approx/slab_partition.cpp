@@ -70,18 +70,16 @@ class Partitioner {
     members_ = HugeArray<std::uint32_t>(live_count_ + D);
   }
 
-  /// To be called for all rows before anything else, some at a time, by any thread.
-  void prepare(std::size_t begin, std::size_t end) {
+  /// To be called for all rows before slabs are found, some at a time, by any thread. `walks`: by walks.
+  void prepare(std::size_t begin, std::size_t end, bool walks) {
     for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
-      std::uint32_t mix = 0;
-      for (std::size_t k = 0; k < D; ++k) mix ^= row_of(row)[k];
-      facets_.marks.put(row, mix, !is_live(row));
+      make_mark(row);
       if (!is_live(row)) facets_.facet_of[row] = kNone;
-      classes_.put(row, length_sq_of(row));
+      if (walks) classes_.put(row, length_sq_of(row));
     }
   }
 
-  /// Of slabs where nothing is taken. Where they are large a few tell.
+  /// Of slabs where nothing is taken, before rows are prepared. Where they are large a few tell.
   SlabSizes slab_sizes() {
     constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
     std::size_t sum = 0, slabs = 0;
@@ -91,9 +89,10 @@ class Partitioner {
       const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
       if (!is_live(row)) continue;
       ++slabs;
+      make_mark(row);
       SeedPlane<D> own = planes_.own(row);
       if (!planes_.raise_above_points(row, own)) continue;
-      grow(row, own);
+      grow<true>(row, own);
       sum += count_;
       inverse_sum += 1.0 / static_cast<double>(count_);
       give_back({0, 0});
@@ -126,7 +125,7 @@ class Partitioner {
       take_slabs(seeds, least);
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
-    facets_.members.assign(members_.data(), members_.data() + count_);
+    facets_.members = std::move(members_);
     for (std::uint32_t facet = 0; facet < facets_.count(); ++facet)
       for (const std::uint32_t row : facets_.members_of(facet)) facets_.facet_of[row] = facet;
     facets_.vertices.resize(vertex_count_);
@@ -145,6 +144,11 @@ class Partitioner {
     std::size_t members, vertices;
   };
 
+  void make_mark(std::uint32_t row) {
+    std::uint32_t mix = 0;
+    for (std::size_t k = 0; k < D; ++k) mix ^= row_of(row)[k];
+    facets_.marks.put(row, mix, !is_live(row));
+  }
   bool is_live(std::uint32_t row) const { return complex_.state[row] == SimplexState::kLive; }
   const std::uint32_t* row_of(std::uint32_t row) const {
     return complex_.topology.data() + std::size_t{row} * 2 * D;
@@ -166,6 +170,7 @@ class Partitioner {
 
   /// Appends the simplices of a slab, `own` being its plane: those that are in none yet and connected to the
   /// seed.
+  template <bool kMakesMarks = false>
   void grow(std::uint32_t seed, const SeedPlane<D>& own) {
     ++slab_;
     members_[count_++] = seed;
@@ -176,7 +181,7 @@ class Partitioner {
       dots_[vertex] = {HUGE_VAL, slab_, 1};
       facets_.vertices[vertex_count_++] = PointId{vertex};
     }
-    walk_from(count_ - 1, own);
+    walk_from<kMakesMarks>(count_ - 1, own);
   }
 
   /// Turns the plane of the slab that begins there to the vertices that it has, and appends what it then
@@ -189,12 +194,13 @@ class Partitioner {
       if (count_ - begin.members == 1 || !planes_.turn_to(vertices, own)) return;
       ++slab_;
       for (const PointId vertex : vertices) dots_[vertex.value] = {HUGE_VAL, slab_, 1};
-      walk_from(begin.members, own);
+      walk_from<false>(begin.members, own);
       if (count_ == before) return;
     }
   }
 
   /// Takes what is in the slab beside these members and those appended.
+  template <bool kMakesMarks>
   void walk_from(std::size_t next, const SeedPlane<D>& own) {
     SimplexMarks& marks = facets_.marks;
     std::uint32_t* const members = members_.data();
@@ -210,6 +216,7 @@ class Partitioner {
       std::uint32_t open[D], across[D];
       std::size_t open_count = 0;
       for (std::size_t k = 0; k < D; ++k) {
+        if (kMakesMarks && !marks.is_taken(row[D + k])) make_mark(row[D + k]);
         const SimplexMarks::Mark neighbour = marks[row[D + k]];
         open[open_count] = row[D + k];
         open_marks[open_count] = neighbour;
@@ -345,16 +352,17 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
   if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
-    const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
+    const SlabSizes sizes = partitioner.slab_sizes();
+    if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
+    const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
+    const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end, walks); };
     // One thread finds determinants, which will be wanted anyway, while it has the rows near.
     if (find_determinants && !has_more_threads()) {
       find_determinants(prepare);
     } else {
       for_each_block(complex.row_count, kRowsPrepared, prepare);
     }
-    const SlabSizes sizes = partitioner.slab_sizes();
-    if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
-    if (find_determinants && partitioner.is_better_by_stars(sizes))
+    if (!walks)
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();

@@ -155,7 +155,9 @@ class ThinPartitioner {
   /// taken too much of come again with a smaller `least`.
   void take_stars(unsigned least) {
     for_each_open([&](std::uint32_t row) { return count_bits(fitting_[row]) >= least; },
-                  [&](std::uint32_t row) { prefetch(row_of(row) + D, D); },
+                  [&](std::uint32_t row) {
+                    if (least >= kGrowsFrom) prefetch(plane_of(row), D);
+                  },
                   [&](std::uint32_t row) { take_star(row, least); });
   }
 

@@ -15,14 +15,16 @@ namespace {
 
 constexpr std::size_t kRowsAtATime = 1 << 14;
 
-/// `moved`: rows, as they are numbered now, of which no neighbour was told yet where they are.
-void rename_neighbours(SimplicialComplex& complex, std::span<const std::uint32_t> new_of_old,
+/// `moved`: rows, as they are numbered now, of which no neighbour was told yet where they are. `new_of`: the
+/// number of a row that had this one.
+template <class NewOf>
+void rename_neighbours(SimplicialComplex& complex, const NewOf& new_of,
                        std::span<const std::uint32_t> moved) {
   constexpr std::size_t kFew = 8;  // one of so many
   const std::size_t rank = complex.rank;
   const auto rename = [&](std::size_t row) {
     std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
-    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of_old[neighbours[k]];
+    for (std::size_t k = 0; k < rank; ++k) neighbours[k] = new_of(neighbours[k]);
   };
   if (moved.size() * kFew > complex.row_count) {
     for_each_block(complex.row_count, kRowsAtATime, [&](std::size_t begin, std::size_t end) {
@@ -67,25 +69,26 @@ std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t beg
 
 std::vector<RowMove> compact(SimplicialComplex& complex) {
   const std::size_t rank = complex.rank;
-  std::vector<std::uint32_t> new_of_old(complex.row_count), moved;
+  const auto live = static_cast<std::size_t>(
+      std::count(complex.state.data(), complex.state.data() + complex.row_count, SimplexState::kLive));
+  std::vector<std::uint32_t> new_of_last(complex.row_count - live), moved;  // of rows from `live` on
   std::vector<RowMove> moves;
-  std::iota(new_of_old.begin(), new_of_old.end(), 0u);
-  std::size_t live = 0, end = complex.row_count;  // rows before `live` are live, rows from `end` on are free
-  for (; live < end; ++live) {
-    if (complex.state[live] != SimplexState::kFree) continue;
-    while (end > live && complex.state[end - 1] == SimplexState::kFree) --end;
-    if (end <= live) break;
+  std::size_t end = complex.row_count;
+  for (std::size_t row = 0; row < live; ++row) {
+    if (complex.state[row] != SimplexState::kFree) continue;
+    while (complex.state[end - 1] == SimplexState::kFree) --end;
     const std::size_t last = --end;
-    new_of_old[last] = static_cast<std::uint32_t>(live);
-    moved.push_back(static_cast<std::uint32_t>(live));
-    moves.push_back({static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(live)});
-    std::copy_n(complex.planes.data() + last * rank, rank, complex.planes.data() + live * rank);
+    new_of_last[last - live] = static_cast<std::uint32_t>(row);
+    moved.push_back(static_cast<std::uint32_t>(row));
+    moves.push_back({static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(row)});
+    std::copy_n(complex.planes.data() + last * rank, rank, complex.planes.data() + row * rank);
     std::copy_n(complex.topology.data() + last * 2 * rank, 2 * rank,
-                complex.topology.data() + live * 2 * rank);
-    std::swap(complex.state[live], complex.state[last]);
+                complex.topology.data() + row * 2 * rank);
+    std::swap(complex.state[row], complex.state[last]);
   }
   complex.row_count = live;
-  rename_neighbours(complex, new_of_old, moved);
+  rename_neighbours(
+      complex, [&](std::uint32_t row) { return row < live ? row : new_of_last[row - live]; }, moved);
   complex.planes.discard_from(live * rank);
   complex.topology.discard_from(live * 2 * rank);
   complex.outside_head = HugeArray<std::uint32_t>();
@@ -137,7 +140,9 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
       std::copy_n(taken + i * width, width, complex.topology.data() + rows[i] * width);
   });
   complex.planes.discard_from(planes_kept * rank);
-  if (!takes_all) rename_neighbours(complex, new_of_old, rows);
+  if (!takes_all)
+    rename_neighbours(
+        complex, [&](std::uint32_t row) { return new_of_old[row]; }, rows);
 }
 
 }  // namespace ndhull
