@@ -88,10 +88,10 @@ class ListedFacets {
 
   /// Can one thread keep what is found of each facet near, while rows pass by in the order of memory?
   bool is_better_by_rows() const {
-    constexpr std::size_t kNear = std::size_t{6} << 20, kRowBytesPerByte = 4;
+    constexpr std::size_t kNear = std::size_t{6} << 20, kRowBytesPerByte = 4, kMostWords = 64;
     const std::size_t bytes = 8 * layout_.facets * (words_ + sums_width_);
-    return wants_sums() && vertices_ == nullptr && !has_more_threads() && bytes <= kNear &&
-           kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;
+    return wants_sums() && vertices_ == nullptr && !has_more_threads() && words_ <= kMostWords &&
+           bytes <= kNear && kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;
   }
 
   /// Facet by facet: its simplices are anywhere in memory.
