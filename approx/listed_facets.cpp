@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <vector>
 
 #include "approx/gradient_length.h"
@@ -97,23 +98,24 @@ class ListedFacets {
   /// Facet by facet: its simplices are anywhere in memory.
   template <std::size_t D>
   void look_at_facets() {
-    const GradientLength<D> length_of(wants_sums() ? layout_.gradient_factor
-                                                   : std::vector<double>(complex_.rank * complex_.rank));
+    std::optional<GradientLength<D>> length_of;
+    if (wants_sums()) length_of.emplace(layout_.gradient_factor);
     tbb::enumerable_thread_specific<VertexLister> lister_of_thread([&] { return VertexLister(points_); });
-    for_each_block(
-        layout_.facets - layout_.in_place, kListedAtATime, [&](std::size_t begin, std::size_t end) {
-          VertexLister& lister = lister_of_thread.local();
-          lister.clear();
-          const std::size_t first = layout_.in_place + begin, count = end - begin;
-          for (std::size_t i = 0; i < count; ++i)
-            list_vertices(static_cast<std::uint32_t>(first + i), lister);
-          find_dots(first, lister.rows(), count);
-          if (!wants_sums()) return;
-          std::array<double, kListedAtATime*(D + kMoreSums)> sums{};
-          for (std::size_t i = 0; i < count; ++i)
-            sum_simplices<D>(length_of, static_cast<std::uint32_t>(first + i), sums.data() + i * sums_width_);
-          sums_.take(first, first + count, std::span(sums).first(count * sums_width_));
-        });
+    for_each_block(layout_.facets - layout_.in_place, kListedAtATime,
+                   [&](std::size_t begin, std::size_t end) {
+                     VertexLister& lister = lister_of_thread.local();
+                     lister.clear();
+                     const std::size_t first = layout_.in_place + begin, count = end - begin;
+                     for (std::size_t i = 0; i < count; ++i)
+                       list_vertices(static_cast<std::uint32_t>(first + i), lister);
+                     find_dots(first, lister.rows(), count);
+                     if (!wants_sums()) return;
+                     std::array<double, kListedAtATime*(D + kMoreSums)> sums{};
+                     for (std::size_t i = 0; i < count; ++i)
+                       sum_simplices<D>(*length_of, static_cast<std::uint32_t>(first + i),
+                                        sums.data() + i * sums_width_);
+                     sums_.take(first, first + count, std::span(sums).first(count * sums_width_));
+                   });
   }
 
   void list_vertices(std::uint32_t facet, VertexLister& lister) const {

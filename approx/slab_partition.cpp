@@ -357,7 +357,8 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end, walks); };
     // One thread finds determinants, which will be wanted anyway, while it has the rows near.
-    if (find_determinants && !has_more_threads()) {
+    const bool finds_first = walks && find_determinants && !has_more_threads();
+    if (finds_first) {
       find_determinants(prepare);
     } else {
       for_each_block(complex.row_count, kRowsPrepared, prepare);
@@ -366,7 +367,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
                                        partitioner.take_marks());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
-    if (!find_determinants) return partitioner.run(sizes, std::move(seeds));
+    if (finds_first || !find_determinants) return partitioner.run(sizes, std::move(seeds));
     // Slabs are one thread's work: another one finds the determinants.
     DualFacets facets;
     do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); },

@@ -34,10 +34,9 @@ void solve_simplices(SimplicialComplex& complex, const double* points,
 /// Shapes  points: point_count x rank. determinants: complex.row_count; of free rows 0.
 /// Returns whether the areas times their normals sum to 0, as those of a closed surface do, to 1e-11 of
 ///         their sizes: if not, planes have lost digits, and the simplices are to be solved.
-/// Error   what elimination without pivots loses where no diagonal entry is below 1e-4; simplices with
-/// smaller
-///         ones are solved.
-/// `also`  is called for blocks of rows while they are in cache, by the thread that has them there.
+/// Error   what elimination without pivots loses where no diagonal entry is below 1e-4; simplices that have
+///         smaller ones are solved.
+/// `also`  is called for blocks of all rows while they are in cache, by the thread that has them there.
 /// Cost    O(rank^3) a simplex, eight simplices at a time, three fifths of solving them.
 bool find_determinants(const SimplicialComplex& complex, const double* points, std::span<double> determinants,
                        const BlockWork& also);

@@ -2,6 +2,7 @@
 #include "approx/thin_slabs.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,6 +229,16 @@ TEST(ThinSlabsExample, ThePartitionAsksForThemWhereSlabsHoldFew) {
   const std::optional<DualFacets> thin = partition(0.01);
   ASSERT_TRUE(thin);
   EXPECT_EQ(asked, 1);
+  // Walks ask once too, with any number of threads.
+  for (const int threads : {1, 2}) {
+    asked = 0;
+    tbb::task_arena arena(threads);
+    arena.execute([&] { EXPECT_TRUE(partition(0.2)->is_listed()); });
+    EXPECT_EQ(asked, 1) << threads;
+    asked = 0;
+    arena.execute([&] { EXPECT_EQ(partition(0.01)->count(), thin->count()); });
+    EXPECT_EQ(asked, 1) << threads;
+  }
   EXPECT_FALSE(thin->is_listed());
   EXPECT_EQ(thin->count(), slabs.find(0.01).count());
   const std::optional<DualFacets> wide = partition(0.2);
