@@ -203,15 +203,16 @@ std::span<const double> Approximation::find_determinants(const BlockWork& also) 
 }
 
 /// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
-/// overlapping ones are better.
-std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
+/// overlapping ones are better. For a number of facets determinants are not wanted yet.
+std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, bool is_for_count) {
   const SimplicialComplex& complex = growth_.work().complex;
   const double* coordinates = growth_.coordinates();
   const PointsAbove above = !growth_.work().shifted_points.empty() ? PointsAbove::kAny
                             : is_convex()                          ? PointsAbove::kNoPoint
                                                                    : PointsAbove::kLeftOut;
   FindDeterminants find;
-  if (above != PointsAbove::kAny) find = [this](const BlockWork& also) { return find_determinants(also); };
+  if (above != PointsAbove::kAny && !is_for_count)
+    find = [this](const BlockWork& also) { return find_determinants(also); };
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
   if (!facets || !facets->is_listed()) return facets;
@@ -227,14 +228,13 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
 /// region, and hardly any two facets would fit into one slab.
 bool Approximation::is_final(const DualFacets& facets) const {
   return facets.all_fit && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
-         !is_worth_joining_again(facets.count(),
-                                 growth_.work().complex.row_count - growth_.work().free_count);
+         !is_worth_joining_again(facets.count(), live_count());
 }
 
 /// No planes: not even slabs as thin as rounding leave a hull.
 Covering Approximation::cover_width(double width, std::optional<DualFacets> slabs) {
   const SimplicialComplex& complex = growth_.work().complex;
-  const std::size_t live = complex.row_count - growth_.work().free_count;
+  const std::size_t live = live_count();
   std::optional<SlabCover> overlapping;
   const auto cover = [&] {
     if (slabs) return covering_of(*slabs, *space_);
@@ -247,7 +247,7 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
     if (width < thinnest()) return Covering{};
     width *= 0.75;
     ++hull_.chosen.refused_merges;
-    slabs = find_disjoint_slabs(width);
+    slabs = find_disjoint_slabs(width, false);
     covering = cover();
     if (covering.planes.size() == live) break;
   }
@@ -270,7 +270,7 @@ FacetClusters Approximation::run_width() {
     locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
-    std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
+    std::optional<DualFacets> slabs = find_disjoint_slabs(slab, false);
     if (slabs && is_final(*slabs)) {
       hull_.chosen.outside_width = outside_width;
       hull_.chosen.slab_width = slab;

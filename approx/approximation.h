@@ -67,7 +67,7 @@ class Approximation {
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
   std::span<const double> find_determinants(const BlockWork& also);
-  std::optional<DualFacets> find_disjoint_slabs(double width);
+  std::optional<DualFacets> find_disjoint_slabs(double width, bool is_for_count);
   bool is_final(const DualFacets& facets) const;
   Covering cover_width(double width, std::optional<DualFacets> slabs);
   /// What the search for a number of facets remembers.
@@ -77,10 +77,19 @@ class Approximation {
     double slab = 0.0;          // of its slabs
     double power = 0.0;         // of the width: how the number of facets fell last; 0: not known
     std::uint64_t covered = 0;  // simplices, again for each covering
+    bool is_disjoint = false;   // the last covering's slabs do not overlap
     bool has_any() const { return !narrowest.planes.empty(); }
   };
+  /// A covering by slabs of one width.
+  struct CountTrial {
+    std::size_t facets;
+    Covering covering;  // no planes: these are more facets than are wanted, and not looked at
+  };
+  CountTrial try_width(std::uint64_t count, const CoverEffort& effort, double width,
+                       std::optional<SlabCover>& overlapping, CountSearch& search);
   Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width, double slack,
                        CountSearch& search);
+  std::size_t live_count() const { return growth_.work().complex.row_count - growth_.work().free_count; }
   bool is_coarse_for(double slab, double outside_width);
   double guess_width(std::uint64_t count, CountSearch& search);
   double consider(const Covering& covering, double slab, CountSearch& search);

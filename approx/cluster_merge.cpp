@@ -126,15 +126,18 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
-    constexpr std::size_t kAhead = 8;  // rows whose way from memory has begun
+    constexpr std::size_t kRowsAhead = 8, kNeighboursAhead = 3;  // whose way from memory has begun
     for (std::uint32_t id = 0; id < count; ++id) {
       Cluster& cluster = clusters_[id];
       const std::span<const std::uint32_t> rows = members_of.of(id);
       facet_seen[id] = id;
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        const SimplexId later{rows[std::min(i + kAhead, rows.size() - 1)]};
+        const SimplexId later{rows[std::min(i + kRowsAhead, rows.size() - 1)]};
         prefetch(complex_.vertices(later).data());
         prefetch(&complex_.neighbours(later).back());
+        const SimplexId soon{rows[std::min(i + kNeighboursAhead, rows.size() - 1)]};
+        for (const SimplexId neighbour : complex_.neighbours(soon))
+          prefetch(&covering_.facet_of[neighbour.value]);
         for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
           add(cluster.vertices, vertex_seen, space_.row_of(point), id);
         for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))

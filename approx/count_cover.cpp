@@ -1,5 +1,6 @@
 // A target number of facets: the part of approx/approximation.h that looks for the least width.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "approx/approximation.h"
@@ -26,22 +27,40 @@ constexpr std::uint64_t kMostCovered = 8'000'000;
 /// Rounds of more points, likewise.
 constexpr int kMostRounds = 24;
 constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
+/// Disjoint slabs take this part of the time of overlapping ones, at most.
+constexpr std::uint64_t kDisjointQuicker = 2;
 /// Coverings of the search, and what takes off the last tenth.
 constexpr CoverEffort kPlain{.final_fit_steps = 0};
 constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
-/// By how much the logarithm of the number may fall short: of a hull that goes on growing, and at the end.
-constexpr double kSome = 0.2, kLittle = 0.025;
+/// By how much the logarithm of the number may fall short: of a hull that goes on growing, and before facets
+/// are balanced, which uses what there is: of coverings that take long, and of others. Further off than the
+/// last, a step goes beyond the number.
+constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
 /// Steps of the width that are tried about the narrowest found, in vain each, and turns that balance what
 /// they find; simplices that they meet. Where facets hold hundreds of simplices they find hardly anything.
 constexpr double kProbeStep = 0.95;
 constexpr int kProbesThinner = 8, kProbesWider = 8;
-constexpr std::uint64_t kProbeTurns = 8, kMostProbed = 60'000;
-/// Facets are balanced until so many turns in sequence make them hardly narrower, and as long as the turns
-/// meet no more than this part of what all coverings have.
-constexpr int kIdleTurns = 4;
-constexpr double kNarrower = 0.998, kMostTurned = 0.5;
-/// Two facets are joined to split the widest when they fit into this part of its width.
+constexpr std::uint64_t kProbeTurns = 8, kMostProbed = 90'000;
+/// Part of their width that disjoint slabs have when they are balanced, about.
+constexpr double kBalanced = 0.8;
+/// Logarithms of widths as near each other say little about the power: the number scatters.
+constexpr double kTellsPower = 0.03;
+/// Part of the width that points left out may be outside for disjoint slabs.
+constexpr double kFarAbove = 0.5;
+/// Simplices from which on coverings that overlap take long.
+constexpr std::uint64_t kTakesLong = 100'000;
+/// Of facets that hold so many simplices it is worth choosing among slabs that overlap.
+constexpr std::uint64_t kLarge = 400;
+/// Facets are balanced until so many turns make them hardly narrower.
+constexpr std::size_t kTurnsLookedBack = 5;
+constexpr double kNarrower = 0.985, kNarrowerOfFew = 0.999;
+constexpr std::uint64_t kMostTurns = 24;
+/// Two facets are joined to split the widest when they fit into this part of its width, and less than this
+/// part of the number is to spare.
 constexpr double kClearlyNarrower = 0.97;
+constexpr std::uint64_t kFewSpare = 32;
+/// When fewer have joined it is some turns until pairs are tried again.
+constexpr std::uint64_t kFewJoined = 128;
 
 }  // namespace
 
@@ -61,38 +80,58 @@ void Approximation::close_and_join(Covering& covering, double width, bool joins)
   if (joins) join_neighbours(covering, width);
 }
 
+/// Slabs of a width: disjoint ones where these are found, which takes a fraction of the time; not where
+/// points are far above many simplices, since the plane of each would have to be turned.
+Approximation::CountTrial Approximation::try_width(std::uint64_t count, const CoverEffort& effort,
+                                                   double width, std::optional<SlabCover>& overlapping,
+                                                   CountSearch& search) {
+  const bool joins = is_worth_joining(count, live_count());
+  std::optional<DualFacets> slabs;
+  const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
+  if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, true);
+  search.is_disjoint = slabs.has_value();
+  search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
+  if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
+  if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
+  Covering covering = slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort);
+  if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
+  return {covering.planes.size(), std::move(covering)};
+}
+
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
 /// the (rank-1)/2-th where the hull is round; what it was last is remembered.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width,
                                     double slack, CountSearch& search) {
-  SlabCover cover(growth_.work().complex, *space_, is_convex());
-  const bool joins = is_worth_joining(count, cover.live_count());
+  std::optional<SlabCover> overlapping;
   const double power_of_ball = 0.5 * (static_cast<double>(space_->rank()) - 1.0);
-  const double least_step = 0.2 / power_of_ball;
+  const double least_step = slack / power_of_ball;
   if (search.power == 0.0) search.power = power_of_ball;
   const double wanted = std::log(static_cast<double>(count));
   struct Trial {
     double log_width, log_count;
   };
-  std::optional<Trial> few, many;  // nearest with at most, with more than the count
+  std::optional<Trial> few, many, last;  // few, many: nearest with at most, with more than the count
   Covering best;
   double best_width = 0.0, log_width = std::log(start_width);
   for (int trial = 0; trial < kMostCoverings; ++trial) {
     if (growth_.is_late() && (!best.planes.empty() || trial >= kMostCoveringsLate)) break;
     const double width = std::exp(log_width);
-    Covering covering = cover.cover(width, effort);
-    search.covered += cover.live_count();
-    if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
-    const double log_count = std::log(static_cast<double>(covering.planes.size()));
-    if (covering.planes.size() > count) {
+    CountTrial found = try_width(count, effort, width, overlapping, search);
+    const double log_count = std::log(static_cast<double>(found.facets));
+    if (last && std::abs(log_width - last->log_width) > kTellsPower && log_count != last->log_count) {
+      const double power = (last->log_count - log_count) / (log_width - last->log_width);
+      search.power = std::clamp(power, 0.5 * power_of_ball, 2.0 * power_of_ball);
+    }
+    last = Trial{log_width, log_count};
+    if (found.facets > count) {
       if (!many || log_width > many->log_width) many = Trial{log_width, log_count};
     } else {
       if (!few || log_width < few->log_width) few = Trial{log_width, log_count};
-      const bool is_hull = keeps_hull(covering);
-      if (is_hull) consider(covering, width, search);
+      const bool is_hull = keeps_hull(found.covering);
+      if (is_hull) consider(found.covering, width, search);
       if (is_hull && (best.planes.empty() || width < best_width)) {
-        best = std::move(covering);
+        best = std::move(found.covering);
         best_width = width;
       }
       if (is_hull && (width <= flat() || wanted - few->log_count < slack)) break;
@@ -101,44 +140,50 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
       const double between = few->log_width - many->log_width;
       if (between < 0.004) break;
       const double fewer = std::max(1e-9, many->log_count - few->log_count);
-      // Of widths near each other it says little: the number scatters.
-      if (between > 0.03)
-        search.power = std::clamp(fewer / between, 0.5 * power_of_ball, 4.0 * power_of_ball);
       const double part = (many->log_count - wanted + 0.5 * slack) / fewer;
       log_width = many->log_width + std::clamp(part, 0.08, 0.92) * between;
     } else if (few) {
-      log_width -= std::max(least_step, 1.2 * (wanted - few->log_count) / search.power);
+      const double short_of = wanted - few->log_count;
+      log_width -=
+          std::max(least_step, (short_of > kFar ? 1.2 * short_of : short_of - 0.5 * slack) / search.power);
       if (few->log_width > std::log(flat())) log_width = std::max(log_width, std::log(flat()));
     } else {
-      log_width += std::max(least_step, 1.2 * (many->log_count - wanted) / search.power);
+      const double beyond = many->log_count - wanted;
+      log_width += std::max(least_step, (beyond > kFar ? 1.2 * beyond : beyond + 0.5 * slack) / search.power);
     }
   }
   hull_.chosen.slab_width = best_width;
   return best;
 }
 
-/// Narrower facets, no more of them: simplices change facets and planes turn; where facets are fewer than may
-/// be, or two fit into one, the widest are split. True widths decide. Returns the turns taken.
+/// Narrower facets, no more of them: simplices change facets and planes turn. Every other turn begins with
+/// pairs of facets that fit into one clearly narrower than the widest, which leaves some to split the widest
+/// with. True widths decide. Returns the turns taken.
 std::uint64_t Approximation::balance_facets(std::uint64_t count, const Covering& start, double slab,
                                             std::uint64_t most_turns, CountSearch& search) {
   FacetBalance balance(growth_.work().complex, *space_, is_convex(), start);
+  std::array<double, kTurnsLookedBack> before;  // widths
+  before.fill(HUGE_VAL);
   double width = HUGE_VAL;
-  std::uint64_t turn = 0;
-  for (int idle = 0; turn < most_turns && idle < kIdleTurns && search.width > flat(); ++turn) {
-    if (growth_.is_late()) break;
+  std::uint64_t turn = 0, next_join = 0;
+  for (; turn < most_turns && search.width > flat() && !growth_.is_late(); ++turn) {
     const std::size_t facets = balance.covering().planes.size();
-    if (turn % 2 == 1 && facets >= count) {
+    if (turn >= next_join && facets + count / kFewSpare >= count) {
       Covering joined = balance.covering();
-      join_neighbours(joined, kClearlyNarrower * std::min(width, balance.covering().widest));
-      if (joined.planes.size() < facets) balance.set_covering(std::move(joined));
+      join_neighbours(joined, kClearlyNarrower * std::min(width, joined.widest));
+      const std::size_t won = facets - joined.planes.size();
+      if (won > 0) balance.set_joined(std::move(joined));
+      next_join = turn + (won > count / kFewJoined ? 2 : 5);
     }
-    if (balance.covering().planes.size() < count)
-      balance.split_widest((count - balance.covering().planes.size() + 2) / 3);
+    // A part of what may be: where they are needed shows when the others have turned.
+    const std::size_t spare = count - std::min(count, balance.covering().planes.size());
+    balance.split_widest((spare + 2) / 3);
     balance.turn();
     if (!keeps_hull(balance.covering())) break;
-    const double before = width;
     width = std::min(width, consider(balance.covering(), slab, search));
-    idle = width < kNarrower * before ? 0 : idle + 1;
+    double& earlier = before[turn % kTurnsLookedBack];
+    if (width > (live_count() > kMostProbed ? kNarrower : kNarrowerOfFew) * earlier) return turn + 1;
+    earlier = width;
   }
   return turn;
 }
@@ -202,11 +247,10 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, do
 
 /// Is it worth growing further for slabs that turned out so narrow?
 bool Approximation::is_coarse_for(double slab, double outside_width) {
-  const GrowthWork& work = growth_.work();
   const double height = growth_.furthest_height();
   if (height == 0.0)  // it had ended
     return outside_width > flat() && kShareForGrowth * slab < kCoarse * outside_width;
-  return height > kTooNearSlab * slab && work.complex.row_count - work.free_count < kMostWorthGrowing;
+  return height > kTooNearSlab * slab && live_count() < kMostWorthGrowing;
 }
 
 /// What so many facets may be as wide as, from a coarse hull; 0 where that was not found out.
@@ -215,7 +259,7 @@ double Approximation::guess_width(std::uint64_t count, CountSearch& search) {
   if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return 0.0;
   make_space(false);
   const double start = std::max(0.1 * lengths_.largest_extent, 1.1 * growth_.furthest_height());
-  const Covering covering = cover_count(count, kPlain, start, kLittle, search);
+  const Covering covering = cover_count(count, kPlain, start, kSome, search);
   return covering.planes.empty() ? start : hull_.chosen.slab_width;
 }
 
@@ -237,7 +281,9 @@ FacetClusters Approximation::run_count() {
   bool is_better_search = false, is_from_wide = false;
   for (int round = 1; !search.has_any() || !growth_.is_late(); ++round) {
     make_space(true);
-    const Covering covering = cover_count(count, effort, width, is_better_search ? kLittle : kSome, search);
+    const bool takes_long = effort.choices > 1 && live_count() > kTakesLong;
+    const double slack = !is_better_search ? kSome : takes_long ? kLess : kFairly;
+    const Covering covering = cover_count(count, effort, width, slack, search);
     if (covering.planes.empty()) {
       if (search.has_any() || is_from_wide) break;
       width = std::max(width, 0.1 * lengths_.largest_extent);
@@ -250,31 +296,38 @@ FacetClusters Approximation::run_count() {
     const Offenders offenders = add_offenders(covering, widths, std::max(slab, flat()));
     const bool is_enough = search.covered > kMostCovered || round == kMostRounds;
     const bool may_grow = !growth_.is_limited() && !growth_.is_late() && !is_enough;
-    const bool is_coarse = may_grow && !is_given && is_coarse_for(slab, outside_width);
-    const bool is_settled = widths.widest() <= std::max(1.002 * slab, flat()) || extra_.size() == known;
+    const double meant = search.is_disjoint ? kBalanced * slab : slab;
+    const bool is_coarse = may_grow && !is_given && is_coarse_for(meant, outside_width);
+    bool is_settled = widths.widest() <= std::max(1.002 * slab, flat()) || extra_.size() == known;
     width = slab;
-    if (is_coarse) {
-      if (growth_.furthest_height() == 0.0) {
-        outside_width = growth_.work().options.outside_width = kShareForGrowth * slab;
-        growth_.repair();
+    if (is_coarse && growth_.furthest_height() == 0.0) {
+      outside_width = growth_.work().options.outside_width = kShareForGrowth * meant;
+      growth_.repair();
+    }
+    if (is_coarse || (may_grow && !offenders.above_simplices.empty())) {
+      growth_.put_back(offenders.above_simplices);
+      if (grow_for_count(count, outside_width, slab)) {
+        search.narrowest = Covering{};  // rows are others now
+        is_settled = false;
       }
-    } else if (is_enough || is_settled) {
-      if (is_enough || is_better_search || slab <= flat()) break;
-      is_better_search = true;  // it needs fewer facets: a smaller width will do
-      effort = kHarder;
+    }
+    if (!is_settled && !is_enough) continue;
+    if (is_enough || is_better_search || slab <= flat()) break;
+    is_better_search = true;
+    const double more = static_cast<double>(count) / static_cast<double>(covering.planes.size());
+    if (search.is_disjoint && live_count() > kMostProbed && live_count() < kLarge * count) {
+      if (std::log(more) < kFairly) break;
+    } else {
+      effort = kHarder;  // it needs fewer facets: a smaller width will do
       width *= 0.97;
     }
-    if (!may_grow || (!is_coarse && offenders.above_simplices.empty())) continue;
-    growth_.put_back(offenders.above_simplices);
-    if (grow_for_count(count, outside_width, slab)) search.narrowest = Covering{};  // rows are others now
+    width *= std::pow(more, -1.0 / search.power);
   }
   hull_.chosen.outside_width = outside_width;
   make_space(true);
   probe_widths(count, search);
-  const double met = kMostTurned * static_cast<double>(search.covered + kMostProbed);
-  const double turns = met / static_cast<double>(growth_.work().complex.row_count);
   const Covering start = search.narrowest;
-  balance_facets(count, start, search.slab, static_cast<std::uint64_t>(turns), search);
+  balance_facets(count, start, search.slab, kMostTurns, search);
   hull_.chosen.slab_width = search.slab;
   return clusters_of(search.narrowest, *space_);
 }

@@ -7,6 +7,7 @@
 
 #include "core/blocks.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 
@@ -38,7 +39,7 @@ double PlaneTops::height_of_left_out() const {
 }
 
 Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
-  constexpr std::size_t kFacetsAtATime = 64;
+  constexpr std::size_t kFacetsAtATime = 64, kSimplicesAhead = 8;
   const SimplicialComplex& complex = *facets.complex;
   Covering covering;
   covering.facet_of = facets.facet_of;
@@ -62,8 +63,11 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
         continue;
       }
       scratch.vertices.clear();
-      for (const std::uint32_t simplex : members.of(facet)) {
-        for (const PointId id : complex.vertices(SimplexId{simplex})) {
+      const std::span<const std::uint32_t> simplices = members.of(facet);
+      for (std::size_t i = 0; i < simplices.size(); ++i) {
+        const SimplexId later{simplices[std::min(i + kSimplicesAhead, simplices.size() - 1)]};
+        prefetch(complex.vertices(later).data(), complex.rank);
+        for (const PointId id : complex.vertices(SimplexId{simplices[i]})) {
           const std::uint32_t row = space.row_of(id);
           if (scratch.last_facet[row] == facet) continue;
           scratch.last_facet[row] = facet;

@@ -21,6 +21,7 @@
 #include "approx/covering.h"
 #include "approx/plane_fit.h"
 #include "approx/width_space.h"
+#include "core/ids.h"
 #include "core/simplicial_complex.h"
 
 namespace ndhull {
@@ -32,7 +33,8 @@ class FacetBalance {
   FacetBalance(const SimplicialComplex& complex, const WidthSpace& space, bool is_convex, Covering covering);
 
   const Covering& covering() const { return covering_; }
-  void set_covering(Covering covering);
+  /// The same simplices, some facets of which may have become one.
+  void set_joined(Covering joined);
 
   /// Lets simplices change facets, and fits the planes of facets that are not what they were; facets left
   /// without a simplex are dropped. False: nothing has changed. The same for any number of threads.
@@ -41,13 +43,17 @@ class FacetBalance {
   bool turn();
 
   /// Of the widest facets, as many as are to come more, the deepest simplex becomes a facet of its own, which
-  /// takes its part from the others in the turns that follow.
+  /// takes its part from the others in the turns that follow. Cost  a product for each of their vertices.
   void split_widest(std::size_t count);
 
  private:
-  float depth_in(std::uint32_t row, std::uint32_t facet) const;
   void find_depths();
   bool exchange(bool is_first);
+  template <std::size_t D>
+  double dot(std::uint32_t facet, PointId vertex) const;
+  template <std::size_t D>
+  float depth_in(std::uint32_t row, std::uint32_t facet) const;
+  template <std::size_t D>
   void move_to_highest(std::uint32_t row, bool is_first);
   void mark_changed(const std::vector<std::uint32_t>& before);
   /// What one thread needs.
@@ -59,16 +65,18 @@ class FacetBalance {
   };
   void fit(std::uint32_t facet, std::span<const std::uint32_t> members, BalanceScratch& scratch);
   void drop_empty(const FacetMembers& members_of);
+  std::uint32_t deepest_of(std::span<const std::uint32_t> members, const FittedPlane& plane) const;
 
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
   bool is_convex_;
   Covering covering_;
-  std::vector<std::uint8_t> is_turned_;   // per facet: its plane is not what it was a turn ago
-  std::vector<std::uint8_t> is_changed_;  // per facet: it has lost simplices or got some
-  std::vector<float> depth_of_;           // per row: below its facet's plane
-  std::vector<std::uint32_t> next_;       // per row: the facet it goes to
-  std::vector<std::uint8_t> is_near_;     // per row: beside one that has just moved
+  std::vector<double> normals_, heights_;  // of the facets as they turned last: facets x rank, and facets
+  std::vector<std::uint8_t> is_turned_;    // per facet: its plane is not what it was a turn ago
+  std::vector<std::uint8_t> is_changed_;   // per facet: it has lost simplices or got some
+  std::vector<float> depth_of_;            // per row: below its facet's plane
+  std::vector<std::uint32_t> next_;        // per row: the facet it goes to
+  std::vector<std::uint8_t> is_near_;      // per row: beside one that has just moved
   tbb::enumerable_thread_specific<BalanceScratch> scratch_;
 };
 

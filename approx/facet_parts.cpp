@@ -38,7 +38,8 @@ double depth_below(const SimplicialComplex& complex, const WidthSpace& space,
 /// Connected parts of facets: each row's part is known by its first row.
 class FacetParts {
  public:
-  /// Id: as small as holds all facets, since looking these up is what takes the time; its largest: none.
+  /// Id: as small as holds all facets, since looking these up is what takes the time; its largest: none, or
+  /// not asked about.
   template <class Id>
   FacetParts(const SimplicialComplex& complex, const std::vector<Id>& facet_of) : first_(complex.row_count) {
     // Rows as they stand in memory; each ridge from the later of its two. Which neighbours are of the same
@@ -75,16 +76,23 @@ class FacetParts {
 };
 
 /// All connected parts of the facets but the largest of each, in the order of their first simplex.
-std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering& covering) {
-  const bool are_few = covering.planes.size() < std::numeric_limits<std::uint16_t>::max();
-  FacetParts parts = are_few ? FacetParts(complex, std::vector<std::uint16_t>(covering.facet_of.begin(),
-                                                                              covering.facet_of.end()))
-                             : FacetParts(complex, covering.facet_of);
+/// Id: std::uint16_t where that holds all facets.
+template <class Id>
+std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering& covering,
+                               std::span<const std::uint8_t> is_asked) {
+  constexpr Id kNoId = std::numeric_limits<Id>::max();
+  std::vector<Id> facet_of(complex.row_count);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    const std::uint32_t facet = covering.facet_of[row];
+    const bool is_left_out = facet == kNone || (!is_asked.empty() && is_asked[facet] == 0);
+    facet_of[row] = is_left_out ? kNoId : static_cast<Id>(facet);
+  }
+  FacetParts parts(complex, facet_of);
   std::vector<std::uint32_t> size_of(complex.row_count, 0), largest_of(covering.planes.size(), kNone);
   std::vector<std::uint32_t> others;  // first rows of the parts that are not a facet's first
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const std::uint32_t facet = covering.facet_of[row];
-    if (facet == kNone) continue;
+    const Id facet = facet_of[row];
+    if (facet == kNoId) continue;
     const std::uint32_t part = parts.part_of(row);
     ++size_of[part];
     if (part != row) continue;
@@ -96,14 +104,14 @@ std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering&
   }
   if (others.empty()) return {};
   for (const std::uint32_t part : others) {
-    std::uint32_t& largest = largest_of[covering.facet_of[part]];
+    std::uint32_t& largest = largest_of[facet_of[part]];
     if (size_of[part] > size_of[largest]) largest = part;
   }
   std::vector<Stray> strays;
   std::vector<std::uint32_t> place_of(complex.row_count, kNone);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const std::uint32_t facet = covering.facet_of[row];
-    if (facet == kNone) continue;
+    const Id facet = facet_of[row];
+    if (facet == kNoId) continue;
     const std::uint32_t part = parts.part_of(row);
     if (largest_of[facet] == part) continue;
     if (part == row) {
@@ -118,9 +126,13 @@ std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering&
 }  // namespace
 
 void gather_strays(const SimplicialComplex& complex, const WidthSpace& space, double width,
-                   Covering& covering, std::vector<float>& depth_of, PlaneFitWork& work) {
+                   Covering& covering, std::vector<float>& depth_of, PlaneFitWork& work,
+                   std::span<const std::uint8_t> is_asked) {
+  const bool are_few = covering.planes.size() < std::numeric_limits<std::uint16_t>::max();
+  const std::vector<Stray> strays = are_few ? find_strays<std::uint16_t>(complex, covering, is_asked)
+                                            : find_strays<std::uint32_t>(complex, covering, is_asked);
   std::vector<std::uint32_t> hosts;
-  for (const Stray& stray : find_strays(complex, covering)) {
+  for (const Stray& stray : strays) {
     hosts.clear();
     for (const std::uint32_t simplex : stray.simplices) {
       for (const SimplexId neighbour : complex.neighbours(SimplexId{simplex}))

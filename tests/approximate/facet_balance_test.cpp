@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "approx/cluster_merge.h"
+#include "approx/facet_parts.h"
 #include "approx/slab_cover.h"
 #include "tests/approximate/grown_sphere.h"
 
@@ -38,6 +40,62 @@ TEST(FacetBalanceLaw, TurnsKeepEverySimplexAndTheWidestGetsNarrower) {
     }
     EXPECT_LT(last, 0.99 * first);
   }
+}
+
+TEST(FacetBalanceLaw, JoinedFacetsGoOnTurning) {
+  const GrownSphere sphere("400 s D5 t1", 400);
+  SlabCover cover(sphere.work.complex, *sphere.space, true);
+  FacetBalance balance(sphere.work.complex, *sphere.space, true,
+                       cover.cover(0.2, CoverEffort{.final_fit_steps = 0}));
+  const std::vector<std::uint32_t> start = balance.covering().facet_of;
+  for (int turn = 0; turn < 3; ++turn) balance.turn();
+  Covering joined = balance.covering();
+  const std::size_t facets = joined.planes.size();
+  const double widest = widest_of(sphere, joined);
+  merge_clusters(
+      sphere.work.complex, *sphere.space,
+      MergeRule{.max_cosine = -1.0, .width_cap = 0.97 * widest, .least_facets = sphere.work.rank + 1},
+      joined);
+  const std::size_t fewer = joined.planes.size();
+  ASSERT_LT(fewer, facets);
+  balance.set_joined(std::move(joined));
+  EXPECT_EQ(balance.covering().planes.size(), fewer);
+  EXPECT_LE(widest_of(sphere, balance.covering()), widest * (1.0 + 1e-6));
+  balance.split_widest(facets - fewer);
+  while (balance.turn()) {
+  }
+  EXPECT_LE(balance.covering().planes.size(), facets);
+  EXPECT_LT(widest_of(sphere, balance.covering()), widest);
+  for (std::size_t row = 0; row < start.size(); ++row)
+    EXPECT_EQ(balance.covering().facet_of[row] == kNone, start[row] == kNone) << row;
+}
+
+// Only these facets are looked at: a part that is cut off of another stays.
+TEST(FacetBalanceLaw, PartsOfTheFacetsAskedAboutMove) {
+  const GrownSphere sphere("400 s D5 t1", 400);
+  SlabCover cover(sphere.work.complex, *sphere.space, true);
+  Covering covering = cover.cover(0.4, CoverEffort{.final_fit_steps = 0});
+  // A simplex of facet 1 inside facet 0: all its neighbours are of 0.
+  const SimplicialComplex& complex = sphere.work.complex;
+  std::uint32_t inner = kNone;
+  for (std::uint32_t row = 0; row < complex.row_count && inner == kNone; ++row) {
+    if (covering.facet_of[row] != 0) continue;
+    bool is_inner = true;
+    for (const SimplexId other : complex.neighbours(SimplexId{row}))
+      is_inner = is_inner && covering.facet_of[other.value] == 0;
+    if (is_inner) inner = row;
+  }
+  ASSERT_NE(inner, kNone);
+  covering.facet_of[inner] = 1;
+  std::vector<float> depths(complex.row_count, 0.0f);
+  PlaneFitWork work;
+  std::vector<std::uint8_t> is_asked(covering.planes.size(), 1);
+  is_asked[1] = 0;
+  gather_strays(complex, *sphere.space, 0.8, covering, depths, work, is_asked);
+  EXPECT_EQ(covering.facet_of[inner], 1u);
+  is_asked[1] = 1;
+  gather_strays(complex, *sphere.space, 0.8, covering, depths, work, is_asked);
+  EXPECT_EQ(covering.facet_of[inner], 0u);
 }
 
 TEST(FacetBalanceLaw, TheWidestAreSplit) {
