@@ -41,19 +41,19 @@ constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
 constexpr double kProbeStep = 0.95;
 constexpr int kProbesThinner = 8, kProbesWider = 8;
 constexpr std::uint64_t kProbeTurns = 8, kMostProbed = 90'000;
-/// Part of their width that disjoint slabs have when they are balanced, about.
+/// Part of their width that slabs have when they are balanced, about.
 constexpr double kBalanced = 0.8;
 /// Logarithms of widths as near each other say little about the power: the number scatters.
 constexpr double kTellsPower = 0.03;
 /// Part of the width that points left out may be outside for disjoint slabs.
-constexpr double kFarAbove = 0.5;
+constexpr double kFarAbove = 0.65;
 /// Simplices from which on coverings that overlap take long.
 constexpr std::uint64_t kTakesLong = 100'000;
 /// Of facets that hold so many simplices it is worth choosing among slabs that overlap.
 constexpr std::uint64_t kLarge = 400;
 /// Facets are balanced until so many turns make them hardly narrower.
 constexpr std::size_t kTurnsLookedBack = 5;
-constexpr double kNarrower = 0.985, kNarrowerOfFew = 0.999;
+constexpr double kNarrower = 0.98, kNarrowerOfFew = 0.999;
 constexpr std::uint64_t kMostTurns = 24;
 /// Two facets are joined to split the widest when they fit into this part of its width, and less than this
 /// part of the number is to spare.
@@ -89,7 +89,6 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
   std::optional<DualFacets> slabs;
   const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
   if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, true);
-  search.is_disjoint = slabs.has_value();
   search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
   if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
@@ -296,7 +295,7 @@ FacetClusters Approximation::run_count() {
     const Offenders offenders = add_offenders(covering, widths, std::max(slab, flat()));
     const bool is_enough = search.covered > kMostCovered || round == kMostRounds;
     const bool may_grow = !growth_.is_limited() && !growth_.is_late() && !is_enough;
-    const double meant = search.is_disjoint ? kBalanced * slab : slab;
+    const double meant = kBalanced * slab;
     const bool is_coarse = may_grow && !is_given && is_coarse_for(meant, outside_width);
     bool is_settled = widths.widest() <= std::max(1.002 * slab, flat()) || extra_.size() == known;
     width = slab;
@@ -315,7 +314,7 @@ FacetClusters Approximation::run_count() {
     if (is_enough || is_better_search || slab <= flat()) break;
     is_better_search = true;
     const double more = static_cast<double>(count) / static_cast<double>(covering.planes.size());
-    if (search.is_disjoint && live_count() > kMostProbed && live_count() < kLarge * count) {
+    if (live_count() > kMostProbed && live_count() < kLarge * count) {
       if (std::log(more) < kFairly) break;
     } else {
       effort = kHarder;  // it needs fewer facets: a smaller width will do
