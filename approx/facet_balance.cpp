@@ -129,7 +129,7 @@ bool FacetBalance::exchange(bool is_first) {
             static_cast<std::uint32_t>(std::min<std::size_t>(row + kNeighboursAhead, complex_.row_count - 1));
         if (is_first || is_near_[later] != 0)
           for (const SimplexId neighbour : complex_.neighbours(SimplexId{later}))
-            prefetch(&covering_.facet_of[neighbour.value]);
+            prefetch(covering_.facet_of.data() + neighbour.value);  // of a free row: anything
         if (covering_.facet_of[row] != kNone && (is_first || is_near_[row] != 0))
           move_to_highest<d>(row, is_first);
       }
