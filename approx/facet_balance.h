@@ -33,7 +33,8 @@ class FacetBalance {
   FacetBalance(const SimplicialComplex& complex, const WidthSpace& space, bool is_convex, Covering covering);
 
   const Covering& covering() const { return covering_; }
-  /// The same simplices, some facets of which may have become one.
+  /// The same simplices, whole facets of which may have become one, the others with the normals that they
+  /// had: what is known of those stays known.
   void set_joined(Covering joined);
 
   /// Lets simplices change facets, and fits the planes of facets that are not what they were; facets left
