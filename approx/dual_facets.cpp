@@ -38,6 +38,19 @@ double PlaneTops::height_of_left_out() const {
   return height;
 }
 
+void DualFacets::number_members() {
+  constexpr std::size_t kFacetsInBlock = 1 << 12, kAskedBefore = 16;
+  for_each_block(count(), kFacetsInBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = first; facet < last; ++facet) {
+      for (std::size_t i = begin[facet]; i < begin[facet + 1]; ++i) {
+        const std::size_t later = std::min<std::size_t>(i + kAskedBefore, begin.back() - 1);
+        prefetch(&facet_of[members[later]]);
+        facet_of[members[i]] = static_cast<std::uint32_t>(facet);
+      }
+    }
+  });
+}
+
 Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   constexpr std::size_t kFacetsAtATime = 64, kSimplicesAhead = 8;
   const SimplicialComplex& complex = *facets.complex;

@@ -49,6 +49,8 @@ struct DualFacets {
   std::span<const std::uint32_t> members_of(std::size_t facet) const {
     return {members.data() + begin[facet], size(facet)};
   }
+  /// Fills facet_of from the lists. Cost  a write anywhere in memory for each, by all threads.
+  void number_members();
   std::span<const double> plane(std::size_t facet) const {
     if (own_plane[facet] == kNone) return complex->plane(SimplexId{seeds[facet]});
     return {own_planes.data() + own_plane[facet] * complex->rank, complex->rank};

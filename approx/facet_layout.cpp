@@ -172,19 +172,19 @@ MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> 
   return sums;
 }
 
-/// No row moves: facets get planes of their own.
+/// No row moves: facets get planes of their own, here those of [begin, end). Only those of simplicial ones
+/// look at lists.
 void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& clusters,
-                       const ClusterPlaces& places, FacetLayout& layout) {
+                       const ClusterPlaces& places, std::size_t begin, std::size_t end, FacetLayout& layout) {
   constexpr std::size_t kPlanesInBlock = 4096, kAhead = 16;  // they are anywhere in memory
   const std::size_t rank = complex.rank;
-  layout.planes = HugeArray<double>(layout.facets * rank);
   const auto plane_of = [&](std::size_t facet) {
     if (facet < layout.simplicial) return complex.plane(layout.simplices[facet]).data();
     return clusters.plane_of(complex, places.cluster_at[facet - layout.simplicial]);
   };
-  for_each_block(layout.facets, kPlanesInBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t facet = begin; facet < end; ++facet) {
-      prefetch(plane_of(std::min(facet + kAhead, end - 1)), rank);
+  for_each_block(end - begin, kPlanesInBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = begin + first; facet < begin + last; ++facet) {
+      prefetch(plane_of(std::min(facet + kAhead, begin + last - 1)), rank);
       std::copy_n(plane_of(facet), rank, layout.planes.data() + facet * rank);
     }
   });
@@ -240,10 +240,15 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.facets = layout.simplicial + clusters.count;
   layout.surface_exponent = scaled.exponent;
   if (places.merged_rows >= layout.simplicial) {
-    list_simplices(
-        clusters, places, [](std::uint32_t row) { return row; }, layout);
     layout.gradient_factor = scaled.factor;
-    take_facet_planes(complex, clusters, places, layout);
+    layout.planes = HugeArray<double>(layout.facets * rank);
+    do_beside(
+        [&] {
+          list_simplices(
+              clusters, places, [](std::uint32_t row) { return row; }, layout);
+        },
+        [&] { take_facet_planes(complex, clusters, places, layout.simplicial, layout.facets, layout); });
+    take_facet_planes(complex, clusters, places, 0, layout.simplicial, layout);
     return layout;
   }
   const RowKinds kinds = find_kinds(complex, clusters);

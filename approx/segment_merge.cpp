@@ -7,14 +7,20 @@
 // and all its planes pass through their ridge.
 #include "approx/segment_merge.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "approx/gradient_length.h"
+#include "approx/segment_interval.h"
+#include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/prefetch.h"
+#include "core/team.h"
 
 namespace ndhull {
 namespace {
@@ -24,25 +30,6 @@ constexpr double kReach = 1.0;
 /// So many of them are tried, until one fits: all others would leave 1 to 3 % fewer facets, in twice the
 /// time.
 constexpr std::size_t kMostNeighbours = 4;
-
-/// The places u on the segment at which all vertices so far are in the slab.
-class Interval {
- public:
-  /// By how much a vertex is too deep at u = 0 and at u = 1.
-  void take(double excess_first, double excess_last) {
-    if (excess_first > 0.0) {
-      begin_ = std::max(begin_, excess_last < 0.0 ? excess_first / (excess_first - excess_last) : 2.0);
-    } else if (excess_last > 0.0) {
-      end_ = std::min(end_, -excess_first / (excess_last - excess_first));
-    }
-  }
-  bool is_empty() const { return begin_ > end_; }
-  double length() const { return end_ - begin_; }
-  double middle() const { return 0.5 * (begin_ + end_); }
-
- private:
-  double begin_ = 0.0, end_ = 1.0;
-};
 
 template <std::size_t D>
 class SegmentMerger {
@@ -58,31 +45,36 @@ class SegmentMerger {
         planes_(facets.count() * D),
         next_(facets.count(), kNone),
         last_(facets.count()),
-        place_of_(facets.count(), 0),
         listed_(std::move(facets.vertices)),
         pass_of_(point_count, 0) {
     constexpr std::size_t kAhead = 8;  // planes are anywhere in memory
-    for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
-      facets_[facet] = {.simplices = static_cast<std::uint32_t>(facets.size(facet)),
-                        .first_vertex = facets.vertex_begin[facet],
-                        .vertex_count = facets.vertex_begin[facet + 1] - facets.vertex_begin[facet],
-                        .top = facets.tops[facet],
-                        .room = width_ * double{facets.lengths[facet]}};
-      prefetch(facets.plane(std::min<std::size_t>(facet + kAhead, facets.count() - 1)).data(), D);
-      std::copy_n(facets.plane(facet).data(), D, planes_.data() + std::size_t{facet} * D);
-      last_[facet] = facet;
-    }
+    for_each_block(facets.count(), kFacetsInBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t facet = begin; facet < end; ++facet) {
+        facets_[facet] = {.simplices = static_cast<std::uint32_t>(facets.size(facet)),
+                          .first_vertex = facets.vertex_begin[facet],
+                          .vertex_count = facets.vertex_begin[facet + 1] - facets.vertex_begin[facet],
+                          .top = facets.tops[facet],
+                          .room = width_ * double{facets.lengths[facet]}};
+        prefetch(facets.plane(std::min<std::size_t>(facet + kAhead, facets.count() - 1)).data(), D);
+        std::copy_n(facets.plane(facet).data(), D, planes_.data() + facet * D);
+        last_[facet] = static_cast<std::uint32_t>(facet);
+      }
+    });
   }
 
   void run(std::size_t most_simplices) {
     std::vector<std::uint32_t> small;
     for (auto facet = static_cast<std::uint32_t>(table_.count()); facet-- > 0;)
       if (facets_[facet].simplices <= most_simplices) small.push_back(facet);
-    for (std::size_t i = 0; i < small.size(); ++i) {
-      fetch(small, i);
-      const std::uint32_t facet = small[i];
-      if (facets_[facet].simplices > most_simplices) continue;  // others have joined it
-      join_neighbour(facet);
+    const std::size_t threads = small.size() < kFewFacets ? 1 : team_threads(kMostThreads);
+    if (threads > 1) {
+      join_foreseen(small, most_simplices, threads);
+    } else {
+      Search search(table_.count());
+      for (std::size_t i = 0; i < small.size(); ++i) {
+        fetch(small, i);
+        if (is_small(small[i], most_simplices)) join(small[i], find_host(small[i], search));
+      }
     }
     drop_joined();
   }
@@ -103,6 +95,78 @@ class SegmentMerger {
     std::uint32_t facet;
     Interval interval;
   };
+  struct Host {
+    std::uint32_t facet = kNone;
+    double place = 0.0;  // of the common plane on the segment to it
+  };
+  /// What one thread looks at.
+  struct Search {
+    explicit Search(std::size_t facets) : place_of(facets, 0) {}
+
+    std::vector<std::uint32_t> place_of;  // per facet: in neighbours, when it was there last
+    std::vector<std::uint32_t> met;       // facets across the ridges, some of them often
+    std::vector<Neighbour> neighbours;
+    std::vector<Ridge> ridges;
+    std::vector<std::array<double, 2>> depths;
+    std::vector<double> own_depths;  // of the facet that is being looked at
+  };
+  /// As one thread would find it, if no facet that was met has changed since.
+  struct Foreseen {
+    Host host;
+    std::vector<std::uint32_t> met;
+  };
+
+  /// Below this nothing is foreseen: a team takes some 0.1 ms to begin.
+  static constexpr std::size_t kFewFacets = 512, kMostThreads = 8;
+  static constexpr std::size_t kForeseenInBlock = 16, kBlocksOfThread = 4, kHostsAhead = 4;
+  static constexpr std::size_t kRowsInBlock = 1 << 14, kFacetsInBlock = 1 << 12;
+
+  /// Have no others joined it that it is not any more?
+  bool is_small(std::uint32_t facet, std::size_t most_simplices) const {
+    return facets_[facet].simplices <= most_simplices;
+  }
+
+  void ask_for_host(const Host& host) const {
+    if (host.facet == kNone) return;
+    prefetch(&facets_[host.facet]);
+    prefetch(plane_of(host.facet), D);
+    prefetch(&table_.own_plane[host.facet]);
+    prefetch(&last_[host.facet]);
+  }
+
+  /// The same joins in the same order. Hosts are looked for by all threads, some facets ahead; where a facet
+  /// that was met has changed by then it is done again.
+  void join_foreseen(std::span<const std::uint32_t> small, std::size_t most_simplices, std::size_t threads) {
+    tbb::enumerable_thread_specific<Search> searches([&] { return Search(table_.count()); });
+    std::vector<Foreseen> foreseen(kForeseenInBlock * kBlocksOfThread * threads);
+    std::vector<std::uint32_t> round_of(table_.count(), 0);  // per facet: that changed it
+    Team team(threads);
+    std::uint32_t round = 0;
+    for (std::size_t first = 0; first < small.size(); first += foreseen.size()) {
+      const auto batch = small.subspan(first, std::min(foreseen.size(), small.size() - first));
+      team.for_each_block(batch.size(), kForeseenInBlock, [&](std::size_t begin, std::size_t end) {
+        Search& search = searches.local();
+        for (std::size_t i = begin; i < end; ++i) {
+          fetch(batch, i);
+          if (!is_small(batch[i], most_simplices)) continue;
+          foreseen[i].host = find_host(batch[i], search);
+          foreseen[i].met.swap(search.met);
+        }
+      });
+      ++round;
+      const auto has_changed = [&](std::uint32_t facet) { return round_of[facet] == round; };
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        ask_for_host(foreseen[std::min(i + kHostsAhead, batch.size() - 1)].host);
+        if (!is_small(batch[i], most_simplices)) continue;
+        Host host = foreseen[i].host;
+        if (has_changed(batch[i]) || std::ranges::any_of(foreseen[i].met, has_changed))
+          host = find_host(batch[i], searches.local());
+        if (host.facet == kNone) continue;
+        join(batch[i], host);
+        round_of[batch[i]] = round_of[host.facet] = round;
+      }
+    }
+  }
 
   /// Begins the way from memory of what the facets after this one are made of.
   void fetch(std::span<const std::uint32_t> facets, std::size_t place) const {
@@ -144,22 +208,23 @@ class SegmentMerger {
   }
 
   /// The first that fits. To look for the one that it is narrowest with takes longer, and leaves more facets.
-  void join_neighbour(std::uint32_t facet) {
-    find_neighbours(facet);
-    choose_neighbours();
-    if (!neighbours_.empty()) find_own_depths(facet);
-    for (const Neighbour& neighbour : neighbours_) {
-      double place = 0.0;
-      if (!find_fit(facet, neighbour.facet, neighbour.interval, place)) continue;
-      join(facet, neighbour.facet, place);
-      return;
+  Host find_host(std::uint32_t facet, Search& search) const {
+    find_neighbours(facet, search);
+    choose_neighbours(search.neighbours);
+    if (!search.neighbours.empty()) find_own_depths(facet, search);
+    for (const Neighbour& neighbour : search.neighbours) {
+      Host host{neighbour.facet};
+      if (find_fit(facet, neighbour, search, host.place)) return host;
     }
+    return {};
   }
 
   /// Neighbours, with what the two vertices across each ridge leave of the interval.
-  void find_neighbours(std::uint32_t facet) {
-    neighbours_.clear();
-    ridges_.clear();
+  void find_neighbours(std::uint32_t facet, Search& search) const {
+    std::vector<Neighbour>& neighbours = search.neighbours;
+    neighbours.clear();
+    search.ridges.clear();
+    search.met.clear();
     const double* plane = plane_of(facet);
     const double top = facets_[facet].top, room = facets_[facet].room, lowest = top - (1.0 + kReach) * room;
     for_members(facet, [&](std::uint32_t simplex) {
@@ -168,22 +233,23 @@ class SegmentMerger {
       for (std::size_t k = 0; k < D; ++k) {
         const std::uint32_t other = table_.facet_of[row[D + k]];
         if (other == facet) continue;
+        search.met.push_back(other);
         const double height = dot(plane, table_.marks.vertex_across(mark, row[k], table_.marks[row[D + k]]));
-        std::uint32_t& place = place_of_[other];
-        if (place >= neighbours_.size() || neighbours_[place].facet != other) {
+        std::uint32_t& place = search.place_of[other];
+        if (place >= neighbours.size() || neighbours[place].facet != other) {
           if (height < lowest) continue;
-          place = static_cast<std::uint32_t>(neighbours_.size());
-          neighbours_.push_back({other, Interval()});
+          place = static_cast<std::uint32_t>(neighbours.size());
+          neighbours.push_back({other, Interval()});
           prefetch(&facets_[other]);
           prefetch(plane_of(other), D);
         }
-        ridges_.push_back({place, row[k], height});
+        search.ridges.push_back({place, row[k], height});
       }
     });
-    for (const Ridge& ridge : ridges_) {
-      Interval& interval = neighbours_[ridge.place].interval;
+    for (const Ridge& ridge : search.ridges) {
+      Interval& interval = neighbours[ridge.place].interval;
       if (interval.is_empty()) continue;
-      const std::uint32_t other = neighbours_[ridge.place].facet;
+      const std::uint32_t other = neighbours[ridge.place].facet;
       const double room_of_other = facets_[other].room;
       // How deep each is below its own facet's plane is not looked at: it makes no more of the interval.
       interval.take(top - ridge.height - room, -room_of_other);
@@ -192,46 +258,48 @@ class SegmentMerger {
   }
 
   /// Keeps the neighbours that the ridges leave the longest intervals with, the longest first.
-  void choose_neighbours() {
-    std::erase_if(neighbours_, [](const Neighbour& neighbour) { return neighbour.interval.is_empty(); });
+  static void choose_neighbours(std::vector<Neighbour>& neighbours) {
+    std::erase_if(neighbours, [](const Neighbour& neighbour) { return neighbour.interval.is_empty(); });
     const auto is_longer = [](const Neighbour& a, const Neighbour& b) {
       const double length_of_a = a.interval.length(), length_of_b = b.interval.length();
       return length_of_a != length_of_b ? length_of_a > length_of_b : a.facet < b.facet;
     };
-    const std::size_t chosen = std::min(kMostNeighbours, neighbours_.size());
-    std::ranges::partial_sort(neighbours_, neighbours_.begin() + static_cast<std::ptrdiff_t>(chosen),
+    const std::size_t chosen = std::min(kMostNeighbours, neighbours.size());
+    std::ranges::partial_sort(neighbours, neighbours.begin() + static_cast<std::ptrdiff_t>(chosen),
                               is_longer);
-    neighbours_.resize(chosen);
+    neighbours.resize(chosen);
   }
 
   /// How deep the facet's vertices are below its own plane.
-  void find_own_depths(std::uint32_t facet) {
-    own_depths_.clear();
+  void find_own_depths(std::uint32_t facet, Search& search) const {
+    search.own_depths.clear();
     for (const PointId vertex : vertices_of(facet))
-      own_depths_.push_back(facets_[facet].top - dot(plane_of(facet), vertex.value));
+      search.own_depths.push_back(facets_[facet].top - dot(plane_of(facet), vertex.value));
   }
 
   /// Is there a plane between those of the two facets, at `place` on the segment, that both are less than the
   /// width below?
-  bool find_fit(std::uint32_t facet, std::uint32_t other, Interval interval, double& place) {
+  bool find_fit(std::uint32_t facet, const Neighbour& neighbour, Search& search, double& place) const {
+    const std::uint32_t other = neighbour.facet;
+    Interval interval = neighbour.interval;
     const Facet &first = facets_[facet], &last = facets_[other];
     const double *first_plane = plane_of(facet), *last_plane = plane_of(other);
-    depths_.clear();
+    search.depths.clear();
     const auto take = [&](double depth, double depth_of_other) {
       interval.take(depth - first.room, depth_of_other - last.room);
-      depths_.push_back({depth, depth_of_other});
+      search.depths.push_back({depth, depth_of_other});
       return !interval.is_empty();
     };
     const std::span<const PointId> own = vertices_of(facet);
     for (std::size_t i = 0; i < own.size(); ++i)
-      if (!take(own_depths_[i], last.top - dot(last_plane, own[i].value))) return false;
+      if (!take(search.own_depths[i], last.top - dot(last_plane, own[i].value))) return false;
     for (const PointId vertex : vertices_of(other)) {
       if (!take(first.top - dot(first_plane, vertex.value), last.top - dot(last_plane, vertex.value)))
         return false;
     }
     place = interval.middle();
     double deepest = 0.0;
-    for (const std::array<double, 2>& depth : depths_)
+    for (const std::array<double, 2>& depth : search.depths)
       deepest = std::max(deepest, (1.0 - place) * depth[0] + place * depth[1]);
     std::array<double, D> between;
     mix_planes(first_plane, last_plane, place, between.data());
@@ -242,7 +310,9 @@ class SegmentMerger {
     for (std::size_t k = 0; k < D; ++k) out[k] = (1.0 - place) * first[k] + place * last[k];
   }
 
-  void join(std::uint32_t facet, std::uint32_t host, double place) {
+  void join(std::uint32_t facet, const Host& found) {
+    const auto [host, place] = found;
+    if (host == kNone) return;
     for_members(facet, [&](std::uint32_t row) { table_.facet_of[row] = host; });
     double* const between = planes_.data() + std::size_t{host} * D;
     mix_planes(plane_of(facet), between, place, between);
@@ -286,8 +356,12 @@ class SegmentMerger {
       table_.tops[used] = table_.tops[facet];
       table_.lengths[used++] = table_.lengths[facet];
     }
-    for (std::uint32_t& facet : table_.facet_of)
-      if (facet != kNone) facet = number_of[facet];
+    for_each_block(table_.facet_of.size(), kRowsInBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        std::uint32_t& facet = table_.facet_of[row];
+        if (facet != kNone) facet = number_of[facet];
+      }
+    });
     table_.members = HugeArray<std::uint32_t>();
     table_.begin = {};
     table_.vertex_begin = {};
@@ -303,16 +377,11 @@ class SegmentMerger {
   double width_;
   DualFacets& table_;
   std::vector<Facet> facets_;
-  std::vector<double> planes_;              // facets x D
+  HugeArray<double> planes_;                // facets x D
   std::vector<std::uint32_t> next_, last_;  // per facet: chains of those that have joined it
-  std::vector<std::uint32_t> place_of_;     // per facet: in neighbours_, when it was there last
-  std::vector<Neighbour> neighbours_;       // of the facet that is being looked at
-  std::vector<Ridge> ridges_;
-  std::vector<PointId> listed_, union_;  // vertices
-  std::vector<std::uint32_t> pass_of_;   // per point: the last join that met it
+  std::vector<PointId> listed_, union_;     // vertices
+  std::vector<std::uint32_t> pass_of_;      // per point: the last join that met it
   std::uint32_t pass_ = 0;
-  std::vector<std::array<double, 2>> depths_;
-  std::vector<double> own_depths_;  // of the facet that is being looked at
 };
 
 }  // namespace

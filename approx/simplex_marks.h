@@ -4,10 +4,23 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/dimension_switch.h"
 #include "core/huge_array.h"
 #include "core/prefetch.h"
 
 namespace ndhull {
+
+/// One bit a neighbour.
+using NeighbourBits = std::uint16_t;
+static_assert(8 * sizeof(NeighbourBits) >= kMaxRank);
+
+/// As std::popcount, which is a call where the instruction cannot be taken for granted.
+constexpr unsigned count_bits(NeighbourBits bits) {
+  unsigned sum = bits - ((bits >> 1) & 0x5555u);
+  sum = (sum & 0x3333u) + ((sum >> 2) & 0x3333u);
+  sum = (sum + (sum >> 4)) & 0x0f0fu;
+  return (sum + (sum >> 8)) & 0x1fu;
+}
 
 /// Of each row of a complex the XOR of its vertices, which gives the vertex across a ridge, and whether it is
 /// taken. Neighbours are anywhere in memory: two bytes each stay in the second cache where eight do not, so

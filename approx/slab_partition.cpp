@@ -126,8 +126,7 @@ class Partitioner {
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
     facets_.members = std::move(members_);
-    for (std::uint32_t facet = 0; facet < facets_.count(); ++facet)
-      for (const std::uint32_t row : facets_.members_of(facet)) facets_.facet_of[row] = facet;
+    facets_.number_members();
     facets_.vertices.resize(vertex_count_);
     return std::move(facets_);
   }

@@ -29,21 +29,9 @@
 namespace ndhull {
 namespace {
 
-/// One bit a neighbour.
-using NeighbourBits = std::uint16_t;
-static_assert(8 * sizeof(NeighbourBits) >= kMaxRank);
-
-/// As std::popcount, which is a call where the instruction cannot be taken for granted.
-constexpr unsigned count_bits(NeighbourBits bits) {
-  unsigned sum = bits - ((bits >> 1) & 0x5555u);
-  sum = (sum & 0x3333u) + ((sum >> 2) & 0x3333u);
-  sum = (sum + (sum >> 4)) & 0x0f0fu;
-  return (sum + (sum >> 8)) & 0x1fu;
-}
-
 /// Rows whose way from memory has begun.
 constexpr std::size_t kRowsAhead = 8, kMembersAhead = 4;
-constexpr std::size_t kStarsInBlock = 1 << 13, kStarsAtATime = 64;
+constexpr std::size_t kStarRowsInBlock = 1 << 13, kStarsAtATime = 64;
 constexpr double kNothingFits = 1e30;  // a product that no point has
 
 template <std::size_t D>
@@ -102,7 +90,7 @@ class ThinPartitioner {
     // Of more points than simplices a second table would take memory that no limit knows of.
     std::optional<FloatPoints> points;
     if (dots_.size() <= row_count_) points.emplace(D, std::span(coordinates_, dots_.size() * D));
-    for_each_block(row_count_, kStarsInBlock, [&](std::size_t begin, std::size_t end) {
+    for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin; first < end; first += kStarsAtATime)
         find_some_stars(points ? &*points : nullptr, static_cast<std::uint32_t>(first),
                         static_cast<std::uint32_t>(std::min(first + kStarsAtATime, end)));
@@ -154,30 +142,32 @@ class ThinPartitioner {
   /// Takes stars with so many neighbours that are in no other, as the rows stand. Stars that others have
   /// taken too much of come again with a smaller `least`.
   void take_stars(unsigned least) {
-    for_each_open([&](std::uint32_t row) { return count_bits(fitting_[row]) >= least; },
-                  [&](std::uint32_t row) {
-                    if (least >= kGrowsFrom) prefetch(plane_of(row), D);
-                  },
-                  [&](std::uint32_t row) { take_star(row, least); });
+    for_each_open(
+        0, row_count_, [&](std::uint32_t row) { return count_bits(fitting_[row]) >= least; },
+        [&](std::uint32_t row) {
+          if (least >= kGrowsFrom) prefetch(plane_of(row), D);
+        },
+        [&](std::uint32_t row) { take_star(row, least); });
   }
 
-  /// Calls visit for the rows that are in no facet and that is_wanted says yes of, ascending, and `fetch` for
-  /// each some time before.
+  /// Calls visit for the rows of [begin, end) that are in no facet and that is_wanted says yes of, ascending,
+  /// and `fetch` for each some time before.
   template <class Wanted, class Fetch, class Visit>
-  void for_each_open(const Wanted& is_wanted, const Fetch& fetch, const Visit& visit) {
+  void for_each_open(std::size_t begin, std::size_t end, const Wanted& is_wanted, const Fetch& fetch,
+                     const Visit& visit) {
     constexpr std::size_t kAtATime = 1024;
     std::array<std::uint32_t, kAtATime + 1> rows;
-    for (std::uint32_t first = 0; first < row_count_; first += kAtATime) {
-      const std::uint32_t last = std::min<std::uint32_t>(first + kAtATime, row_count_);
+    for (std::size_t first = begin; first < end; first += kAtATime) {
+      const auto last = static_cast<std::uint32_t>(std::min(first + kAtATime, end));
       std::size_t count = 0;
-      for (std::uint32_t row = first; row < last; ++row) {
+      for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) {
         rows[count] = row;
         count += (is_taken(row) ? 0u : 1u) & (is_wanted(row) ? 1u : 0u);  // both: no branch
       }
-      for (std::size_t i = 0; i < count; ++i) {
-        prefetch(row_of(rows[std::min(i + 2 * kRowsAhead, count - 1)]), 2 * D);
-        fetch(rows[std::min(i + kRowsAhead, count - 1)]);
-        if (!is_taken(rows[i])) visit(rows[i]);
+      for (std::size_t i = 0; i < count + 2 * kRowsAhead; ++i) {
+        if (i < count) prefetch(row_of(rows[i]), 2 * D);
+        if (i >= kRowsAhead && i < count + kRowsAhead) fetch(rows[i - kRowsAhead]);
+        if (i >= 2 * kRowsAhead && !is_taken(rows[i - 2 * kRowsAhead])) visit(rows[i - 2 * kRowsAhead]);
       }
     }
   }
@@ -260,36 +250,81 @@ class ThinPartitioner {
     }
   }
 
-  /// Two simplices below a plane between theirs.
+  /// Two simplices below a plane between theirs: each, in the order of memory, with the first neighbour that
+  /// fits. Where there are threads for it these see first which fit at all.
   void take_pairs() {
-    const auto fetch = [&](std::uint32_t row) {
-      prefetch(plane_of(row), D);
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t other = row_of(row)[D + k];
-        if (is_taken(other)) continue;
-        facets_.marks.ask_for(other);
-        prefetch(&determinants_[other]);
-        prefetch(plane_of(other), D);
-      }
+    const auto list = [&](std::uint32_t row) {
+      list_open_partners(row);
+      ask_for_partners(row);
     };
-    for_each_open([](std::uint32_t) { return true; }, fetch, [&](std::uint32_t row) { pair(row); });
+    const auto ask = [&](std::uint32_t row) { ask_for_partners(row); };
+    const auto take_first = [&](std::uint32_t row) {
+      for_fitting_partners(row, [&](std::size_t k, const SeedPlane<D>& plane) {
+        take(row_of(row)[D + k], add_facet(row, &plane.plane));
+        return false;
+      });
+    };
+    const auto all = [](std::uint32_t) { return true; };
+    const auto has_any = [&](std::uint32_t row) { return fitting_[row] != 0; };
+    if (!has_more_threads() || planes_.may_have_points_above())
+      return for_each_open(0, row_count_, all, list, take_first);
+    for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
+      for_each_open(begin, end, all, list, [&](std::uint32_t row) {
+        unsigned fitting = 0;
+        for_fitting_partners(row, [&](std::size_t k, const SeedPlane<D>&) {
+          fitting |= 1u << k;
+          return true;
+        });
+        fitting_[row] = static_cast<NeighbourBits>(fitting);
+      });
+    });
+    for_each_open(0, row_count_, has_any, ask, take_first);
   }
 
-  void pair(std::uint32_t row) {
-    double room = 0.0;
-    for (std::size_t k = 0; k < D && !is_taken(row); ++k) {
+  /// Neighbours that come later in memory and are in no facet. (Those before were asked.)
+  void list_open_partners(std::uint32_t row) {
+    unsigned open = 0;
+    for (std::size_t k = 0; k < D; ++k) {
       const std::uint32_t other = row_of(row)[D + k];
-      if (is_taken(other)) continue;
-      if (room == 0.0) room = width_ * planes_.length_of(plane_of(row));
-      const double depth = 1.0 - dot(plane_of(row), vertex_across(row, k)), own = determinants_[row];
-      if (depth * own <= room * (own + determinants_[other])) take_pair(row, k);
+      open |= ((other > row ? 1u : 0u) & (is_taken(other) ? 0u : 1u)) << k;
+    }
+    fitting_[row] = static_cast<NeighbourBits>(open);
+  }
+
+  void ask_for_partners(std::uint32_t row) const {
+    prefetch(plane_of(row), D);
+    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1) {
+      const std::uint32_t other = row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))];
+      facets_.marks.ask_for(other);
+      prefetch(&determinants_[other]);
+      prefetch(plane_of(other), D);
     }
   }
 
-  void take_pair(std::uint32_t row, std::size_t k) {
+  /// Calls visit(k, plane) for the listed neighbours that are in no facet and fit below a plane with the row,
+  /// until it says no.
+  template <class Visit>
+  void for_fitting_partners(std::uint32_t row, const Visit& visit) {
+    // The plane between is no longer than the longer one, which may be the other's: some room for that.
+    constexpr double kLonger = 1.1;
+    if (fitting_[row] == 0) return;
+    const double room = kLonger * width_ * planes_.length_of(plane_of(row)), own = determinants_[row];
+    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+      const std::uint32_t other = row_of(row)[D + k];
+      if (is_taken(other)) continue;
+      const double depth = 1.0 - dot(plane_of(row), vertex_across(row, k));
+      if (!(depth * own <= room * (own + determinants_[other]))) continue;
+      const std::optional<SeedPlane<D>> plane = plane_between(row, k);
+      if (plane && !visit(k, *plane)) return;
+    }
+  }
+
+  /// That both simplices are less than the width below. Nothing: there is none.
+  std::optional<SeedPlane<D>> plane_between(std::uint32_t row, std::size_t k) {
     const std::uint32_t other = row_of(row)[D + k];
     const double first = determinants_[row], last = determinants_[other], sum = first + last;
-    if (!(first > 0.0 && last > 0.0)) return;
+    if (!(first > 0.0 && last > 0.0)) return std::nullopt;
     std::array<double, D> mean;
     for (std::size_t i = 0; i < D; ++i)
       mean[i] = (first * plane_of(row)[i] + last * plane_of(other)[i]) / sum;
@@ -297,7 +332,8 @@ class ThinPartitioner {
     if (planes_.may_have_points_above()) planes_.raise_top(plane);
     const double lowest =
         std::min({1.0, dot(mean.data(), row_of(row)[k]), dot(mean.data(), vertex_across(row, k))});
-    if (lowest >= plane.least) take(other, add_facet(row, &plane.plane));
+    if (!(lowest >= plane.least)) return std::nullopt;
+    return plane;
   }
 
   void take_others() {

@@ -2,6 +2,7 @@
 #include "approx/slab_partition.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +150,30 @@ TEST(SegmentMergeLaw, JoinedFacetsAreSlabsToo) {
         EXPECT_LT(facets.count(), disjoint) << words << ", width " << width << ", most " << most;
         last = facets.count();
       }
+    }
+  }
+}
+
+TEST(SegmentMergeLaw, JoinsAreTheSameForAnyNumberOfThreads) {
+  const GrownSphere sphere("120 s D7 t3", 120);
+  const Slabs slabs(sphere);
+  for (const double width : {0.02, 0.05}) {
+    std::vector<DualFacets> joined;
+    for (const int threads : {1, 2}) {
+      tbb::task_arena arena(threads);
+      arena.execute([&] {
+        joined.push_back(*slabs.partition(width));
+        const std::size_t before = joined.back().count();
+        ASSERT_GT(before, 2000u);  // so that hosts are foreseen, and others join them meanwhile
+        slabs.join(width, 50, joined.back());
+        EXPECT_LT(joined.back().count(), before);
+      });
+    }
+    for (const DualFacets& facets : joined) {
+      EXPECT_EQ(facets.facet_of, joined.front().facet_of);
+      EXPECT_EQ(facets.own_plane, joined.front().own_plane);
+      EXPECT_EQ(facets.own_planes, joined.front().own_planes);
+      EXPECT_EQ(facets.tops, joined.front().tops);
     }
   }
 }

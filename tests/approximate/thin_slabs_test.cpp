@@ -96,6 +96,23 @@ TEST(ThinSlabsLaw, EachSimplexIsInOneConnectedSlab) {
 }
 
 /// The radius is 0.5: planes are nearer to the centre where simplices are large.
+TEST(ThinSlabsLaw, AreTheSameForAnyNumberOfThreads) {
+  const ThinSlabs slabs("100 s D6 t5");
+  for (const double width : {0.005, 0.02}) {
+    std::vector<DualFacets> found;
+    for (const int threads : {1, 2}) {
+      tbb::task_arena arena(threads);
+      arena.execute([&] { found.push_back(slabs.find(width)); });
+    }
+    for (const DualFacets& facets : found) {
+      EXPECT_EQ(facets.facet_of, found.front().facet_of);
+      EXPECT_EQ(facets.own_plane, found.front().own_plane);
+      EXPECT_EQ(facets.own_planes, found.front().own_planes);
+    }
+    EXPECT_GT(found.front().own_planes.size(), 0u);  // pairs
+  }
+}
+
 TEST(ThinSlabsLaw, PlanesFarFromTheCentreBoundARegion) {
   const ThinSlabs slabs("120 s D7 t3");
   double nearest = HUGE_VAL;
