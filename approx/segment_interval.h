@@ -1,4 +1,4 @@
-// Where between two planes a third holds what both hold.
+// Where on the segment between two planes a third one has both facets' vertices in its slab.
 #pragma once
 
 #include <algorithm>

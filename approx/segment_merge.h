@@ -15,7 +15,7 @@ namespace ndhull {
 /// Shapes  coordinates: point_count x rank, in the frame. gradient_factor: rank x rank.
 /// Order   facets stay in theirs.
 /// Cost    two products for each ridge of the small facets, and for each vertex of the few pairs that may
-/// fit.
+///         fit, by all threads; the joins themselves by one. The same facets for any number of threads.
 void join_along_segments(const SimplicialComplex& complex, const double* coordinates,
                          std::span<const double> gradient_factor, std::size_t point_count, double width,
                          std::size_t most_simplices, DualFacets& facets);
