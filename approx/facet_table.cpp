@@ -1,12 +1,12 @@
 #include "approx/facet_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
-#include "approx/frame_planes.h"
 #include "approx/listed_facets.h"
+#include "approx/measure_scale.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/furthest_points.h"
@@ -63,16 +63,10 @@ class TableMaker {
         merged_vertices_(merged_vertices),
         dimension_(frame.dimension),
         count_(layout.facets),
-        to_input_(frame) {
-    const ScaledRatio scale = volume_scale(frame);
-    volume_per_determinant_ = 1.0 / (scale.ratio * std::tgamma(static_cast<double>(frame.rank) + 1.0));
-    volume_exponent_ = -scale.exponent;
-    // In two steps: the power itself may be no double where an area is one.
-    first_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ / 2, -1022, 1022));
-    second_power_ = std::ldexp(1.0, std::clamp(volume_exponent_ - volume_exponent_ / 2, -1022, 1022));
+        scale_(std::make_shared<const MeasureScale>(frame)) {
     if (layout.planes.data() != nullptr) {
-      sums_simplices_ = true;
       planes_ = std::move(layout.planes);
+      simplex_planes_ = std::move(complex.planes);
       simplex_determinants_ = std::move(determinants);
       table_.offsets = HugeArray<double>(count_);
     } else {
@@ -89,7 +83,8 @@ class TableMaker {
     if (has_listed || searches_many_points()) {
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
-      look_at_listed();
+      find_own_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(),
+                    {low(0, count_), high(0, count_), close_});
       if (searches_many_points()) search_many_points();
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
@@ -150,26 +145,11 @@ class TableMaker {
         (frame_.rank == dimension_ ? table_.normals : planes_).data() + begin * frame_.rank;
     for (std::size_t facet = std::max(begin, layout_.simplicial); facet < end; ++facet)
       drop_rounding({planes + (facet - begin) * frame_.rank, frame_.rank});
-    to_input_.map(planes, end - begin, table_.normals.data() + begin * dimension_);
+    scale_->to_input().map(planes, end - begin, table_.normals.data() + begin * dimension_);
     end = std::min(end, layout_.in_place);
     if (begin >= end) return;
     own_dots(complex_, begin, dimension_, normals(begin, end), points_.rows, points_.row_of_point,
              low(begin, end), high(begin, end));
-  }
-
-  /// Facets with lists of simplices or vertices.
-  void look_at_listed() {
-    SimplexSums sums;
-    if (sums_simplices_) {
-      merged_areas_.resize(count_ - layout_.simplicial);
-      merged_surfaces_.resize(count_ - layout_.simplicial);
-      sums.determinants = {simplex_determinants_.data(), complex_.row_count};
-      sums.take = [this](std::size_t begin, std::size_t end, std::span<const double> found) {
-        take_sums(begin, end, found);
-      };
-    }
-    find_own_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(),
-                  {low(0, count_), high(0, count_), close_}, sums);
   }
 
   void end_block(std::size_t begin, std::size_t end) {
@@ -267,18 +247,15 @@ class TableMaker {
       part.max_width = std::max(part.max_width, outer - inner);
       part.roundoff = std::max(part.roundoff, error_per_size * (size + size_input) * per_unit);
 
-      const double cone = determinant * volume_per_determinant_;
+      const double cone = determinant * scale_->volume_per_determinant();
       part.volume += cone;
       if (facet >= layout_.simplicial) continue;
       // A simplex without volume may have no height either.
       table_.areas[facet] =
-          cone > 0.0 ? to_input_size(static_cast<double>(frame_.rank) * cone / height) : 0.0;
+          cone > 0.0 ? scale_->to_input_size(static_cast<double>(frame_.rank) * cone / height) : 0.0;
       part.area += table_.areas[facet];
     }
   }
-
-  /// From multiples of 2^volume_exponent_ input units.
-  double to_input_size(double size) const { return size * first_power_ * second_power_; }
 
   void sum_up() {
     // In the order of the blocks.
@@ -290,58 +267,23 @@ class TableMaker {
       table_.volume += part.volume;
       table_.area += part.area;
     }
-    double surface = layout_.merged_surface;
-    for (const double part : merged_surfaces_) surface += part;
-    if (sums_simplices_) {
-      std::copy(merged_areas_.begin(), merged_areas_.end(), table_.areas.data() + layout_.simplicial);
+    if (simplex_planes_.data() != nullptr) {
+      table_.later_areas = std::make_unique<LaterAreas>(
+          scale_, std::move(simplex_planes_), std::move(simplex_determinants_), std::move(table_.areas));
+      const LaterAreas::Totals totals = table_.later_areas->totals(layout_);
+      table_.volume = totals.volume;
+      table_.surface = totals.surface;
     } else {
-      for (std::size_t first = layout_.simplicial; first < count_; first += kListedAtATime) {
-        const std::size_t count = std::min(kListedAtATime, count_ - first);
-        project_areas(
-            first,
-            {layout_.area_vectors.data() + (first - layout_.simplicial) * frame_.rank, count * frame_.rank},
-            table_.areas.data() + first);
-      }
+      table_.surface = table_.area + scale_->surface(layout_.merged_surface, layout_.surface_exponent);
+      const std::size_t first = layout_.simplicial;
+      for_each_block(count_ - first, kFacetsInBlock, [&](std::size_t begin, std::size_t end) {
+        scale_->project_areas(
+            std::span(layout_.area_vectors).subspan(begin * frame_.rank, (end - begin) * frame_.rank),
+            normals(first + begin, first + end).data(), table_.areas.data() + first + begin);
+      });
+      for (std::size_t facet = first; facet < count_; ++facet) table_.area += table_.areas[facet];
     }
-    table_.volume = std::ldexp(table_.volume, volume_exponent_);
-    table_.surface = table_.area + std::ldexp(surface * area_per_determinant(),
-                                              layout_.surface_exponent + volume_exponent_);
-    for (std::size_t facet = layout_.simplicial; facet < count_; ++facet) table_.area += table_.areas[facet];
-  }
-
-  double area_per_determinant() const { return static_cast<double>(frame_.rank) * volume_per_determinant_; }
-
-  /// Determinants of facets, and areas of those that are merged.
-  void take_sums(std::size_t begin, std::size_t end, std::span<const double> sums) {
-    std::array<double, kListedAtATime * kMaxRank> area_vectors;
-    double* next = area_vectors.data();
-    const double* of_facet = sums.data();
-    for (std::size_t facet = begin; facet < end; ++facet, of_facet += frame_.rank + kMoreSums) {
-      table_.offsets[facet] = of_facet[kDeterminantSum];
-      if (facet < layout_.simplicial) continue;
-      merged_surfaces_[facet - layout_.simplicial] = of_facet[kSurfaceSum];
-      next = std::copy_n(of_facet + kAreaVectorSum, frame_.rank, next);
-    }
-    if (next == area_vectors.data()) return;
-    const std::size_t merged = std::max(begin, layout_.simplicial);
-    project_areas(merged, {area_vectors.data(), next}, merged_areas_.data() + (merged - layout_.simplicial));
-  }
-
-  /// Areas of merged facets: of the projection of their simplices onto their plane. A simplex that faces
-  /// the other way is taken off, and of a wide facet most may: nothing is left then.
-  void project_areas(std::size_t first, std::span<const double> area_vectors, double* areas) const {
-    const std::size_t count = area_vectors.size() / frame_.rank;
-    std::vector<double> directions(count * dimension_), lengths(count);
-    to_input_.map(area_vectors.data(), count, directions.data(), lengths.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::span<const double> normal = normals(first + i, first + i + 1);
-      double cosine = 0.0;
-      for (std::size_t k = 0; k < dimension_; ++k) cosine += directions[i * dimension_ + k] * normal[k];
-      // A facet of simplices without volume has no direction either.
-      areas[i] = std::isfinite(cosine) && cosine > 0.0
-                     ? to_input_size(lengths[i] * cosine * area_per_determinant())
-                     : 0.0;
-    }
+    table_.volume = std::ldexp(table_.volume, scale_->volume_exponent());
   }
 
   SimplicialComplex& complex_;
@@ -354,24 +296,22 @@ class TableMaker {
   bool certifies_;
   const IdRows* merged_vertices_;
   std::size_t dimension_, count_;
-  NormalMap to_input_;
-  /// Of cones and volumes, in multiples of 2^volume_exponent_: those of tiny and of huge data are no doubles
-  /// where areas are.
-  double volume_per_determinant_ = 0.0;
-  int volume_exponent_ = 0;
-  double first_power_ = 1.0, second_power_ = 1.0;  // their product is 2^volume_exponent_
+  std::shared_ptr<const MeasureScale> scale_;
   std::optional<PointGroups> groups_;
   std::vector<std::uint32_t> close_;  // of facets in_place and on: own vertices about as high as the highest
   std::vector<FacetSums> parts_;
-  HugeArray<double> planes_;  // of the facets
-  // Where sums over simplices are made here.
-  bool sums_simplices_ = false;
-  HugeArray<double> simplex_determinants_;
-  std::vector<double> merged_areas_, merged_surfaces_;  // of facets layout_.simplicial and on
+  HugeArray<double> planes_;                                 // of the facets
+  HugeArray<double> simplex_planes_, simplex_determinants_;  // where areas are sums over simplices
   FacetTable table_;
 };
 
 }  // namespace
+
+double FacetTable::area_of_facets(const FacetLayout& layout) const {
+  if (!later_areas) return area;
+  const std::span<const double> made = later_areas->of_facets(layout, normals.data());
+  return std::accumulate(made.begin(), made.end(), 0.0);
+}
 
 FacetTable make_facet_table(SimplicialComplex& complex, FacetLayout& layout, const Frame& frame,
                             const CertificatePoints& points, HugeArray<double> determinants,

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "approx/certificate_points.h"
 #include "approx/coplanar_merge.h"
+#include "approx/later_areas.h"
 #include "approx/length_unit.h"
 #include "core/frame.h"
 #include "core/huge_array.h"
@@ -28,10 +30,14 @@ struct FacetTable {
   HugeArray<double> offsets;  ///< [distance, input units] at the reference
   HugeArray<double> outer;    ///< [distance, length unit] >= 0: all certificate points are below
   HugeArray<double> inner;  ///< [distance, length unit] <= 0: all vertices of the facet's simplices are above
-  HugeArray<double> areas;  ///< [area, input units]
+  HugeArray<double> areas;  ///< [area, input units]; none where they are made later
+  std::unique_ptr<LaterAreas> later_areas;
   double max_outer = 0.0, min_inner = 0.0, max_width = 0.0, roundoff = 0.0, volume = 0.0;
-  double area = 0.0;     ///< sum of the facets' areas
+  double area = 0.0;     ///< sum of the facets' areas where these are there, see area_of_facets
   double surface = 0.0;  ///< sum of the simplices' areas, which merged facets see in projection only
+
+  /// Sum of the facets' areas. Cost  those that would be made later are made.
+  double area_of_facets(const FacetLayout& layout) const;
 };
 
 /// What is known of the input points that are no certificate points, about the frame's centre.
@@ -41,8 +47,9 @@ struct CoveredPoints {
   double reach = 0.0;  ///< no point is longer than this in the frame
 };
 
-/// Makes planes, certificates and areas of all facets. Unless it `certifies`, outer offsets are +infinity.
-/// `known`: of each facet, or empty; then the points are searched.
+/// Makes planes, certificates and areas of all facets; areas later where facets have planes of their own.
+/// Unless it `certifies`, outer offsets are +infinity. `known`: of each facet, or empty; then the points are
+/// searched.
 ///
 /// `merged_vertices`: of the merged facets, where the complex has no simplices; otherwise none.
 ///

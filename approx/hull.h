@@ -17,6 +17,7 @@
 #include "approx/accuracy.h"
 #include "approx/facet_layout.h"
 #include "approx/facet_lists.h"
+#include "approx/later_areas.h"
 #include "approx/later_simplices.h"
 #include "approx/length_unit.h"
 #include "core/dimension_switch.h"
@@ -172,7 +173,9 @@ class Hull {
   double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
   /// Input units, >= 0. Of a merged facet: of the projection of its simplices onto its plane, less what
   /// faces the other way.
-  double area_of(FacetId facet) const { return areas_[facet.value]; }
+  /// Cost  the first call for an approximate hull makes the areas of all facets (later_areas.h); several
+  /// threads may make it.
+  double area_of(FacetId facet) const { return areas()[facet.value]; }
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
 
@@ -205,11 +208,15 @@ class Hull {
     FacetLists lists;
   };
   const FacetLists& lists() const;
-  // Made when they are first asked for: planes, widths and areas need none.
+  const double* areas() const {
+    return later_areas_ ? later_areas_->of_facets(layout_, normals_.data()).data() : areas_.data();
+  }
+  // Made when they are first asked for: planes and widths need none.
   std::unique_ptr<Lists> lists_ = std::make_unique<Lists>();
   SimplicialComplex simplices_;
   std::uint64_t simplex_count_ = 0;
-  std::unique_ptr<LaterSimplices> later_;  // of a hull that was found without simplices
+  std::unique_ptr<LaterAreas> later_areas_;  // then areas_ are not there
+  std::unique_ptr<LaterSimplices> later_;    // of a hull that was found without simplices
   LengthUnit length_unit_;
 };
 

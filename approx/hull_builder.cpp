@@ -16,7 +16,6 @@
 #include "approx/pulled_simplices.h"
 #include "approx/regrown_simplices.h"
 #include "approx/volume_cover.h"
-#include "core/blocks.h"
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth.h"
@@ -360,16 +359,17 @@ class HullBuilder {
         complex(), hull_.layout_, frame_, certificate, std::move(determinants_), hull_.length_unit_,
         growth_->covered_points(), known, options_.certifies_planes, merged_vertices);
     detail("facet table", start);
+    hull_.area = hull_.is_approximate ? table.surface : table.area_of_facets(hull_.layout_);
     hull_.normals_ = std::move(table.normals);
     hull_.centred_offsets_ = std::move(table.offsets);
     hull_.outer_ = std::move(table.outer);
     hull_.inner_ = std::move(table.inner);
     hull_.areas_ = std::move(table.areas);
+    hull_.later_areas_ = std::move(table.later_areas);
     hull_.max_outer_offset = table.max_outer;
     hull_.min_inner_offset = table.min_inner;
     hull_.max_facet_width = table.max_width;
     hull_.roundoff = table.roundoff;
-    hull_.area = hull_.is_approximate ? table.surface : table.area;
     hull_.volume = table.volume;
   }
 

@@ -3,14 +3,10 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <optional>
 #include <vector>
 
-#include "approx/gradient_length.h"
 #include "core/blocks.h"
-#include "core/dimension_switch.h"
 #include "core/id_rows.h"
 #include "core/plane_kernels.h"
 #include "core/prefetch.h"
@@ -50,56 +46,40 @@ class VertexLister {
   std::size_t count_ = 0;                  // of its values
 };
 
-/// What one simplex adds to the sums of its facet.
-template <std::size_t D>
-void add_simplex(const GradientLength<D>& length_of, double determinant, const double* plane, double* sums) {
-  sums[kDeterminantSum] += determinant;
-  sums[kSurfaceSum] += determinant * length_of(plane);
-  for (std::size_t k = 0; k < D; ++k) sums[kAreaVectorSum + k] += determinant * plane[k];
-}
-
 /// Looks at facets with lists of simplices or vertices.
 class ListedFacets {
  public:
   ListedFacets(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
-               const CertificatePoints& points, const double* normals, const ListedDots& dots,
-               const SimplexSums& sums)
+               const CertificatePoints& points, const double* normals, const ListedDots& dots)
       : complex_(complex),
         layout_(layout),
         vertices_(vertices),
         points_(points),
         normals_(normals),
         dots_(dots),
-        sums_(sums),
-        sums_width_(complex.rank + kMoreSums),
         words_((points.rows.size() / points.dimension + kBitsInWord - 1) / kBitsInWord) {}
 
   void run() {
     if (is_better_by_rows()) {
-      call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) { look_at_rows<d>(); });
+      look_at_rows();
     } else {
-      call_with_dimension<1, kMaxRank>(complex_.rank, [&](auto d) { look_at_facets<d>(); });
+      look_at_facets();
     }
   }
 
  private:
-  static constexpr std::size_t kBitsInWord = 64;
+  static constexpr std::size_t kBitsInWord = 64, kListedAtATime = 64;
 
-  bool wants_sums() const { return !sums_.determinants.empty(); }
-
-  /// Can one thread keep what is found of each facet near, while rows pass by in the order of memory?
+  /// Can one thread keep which points each facet has near, while rows pass by in the order of memory?
   bool is_better_by_rows() const {
-    constexpr std::size_t kNear = std::size_t{6} << 20, kRowBytesPerByte = 4, kMostWords = 64;
-    const std::size_t bytes = 8 * layout_.facets * (words_ + sums_width_);
-    return wants_sums() && vertices_ == nullptr && !has_more_threads() && words_ <= kMostWords &&
+    constexpr std::size_t kNear = std::size_t{8} << 20, kRowBytesPerByte = 4, kMostWords = 64;
+    const std::size_t bytes = 8 * layout_.facets * words_;
+    return layout_.in_place == 0 && vertices_ == nullptr && !has_more_threads() && words_ <= kMostWords &&
            bytes <= kNear && kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;
   }
 
   /// Facet by facet: its simplices are anywhere in memory.
-  template <std::size_t D>
   void look_at_facets() {
-    std::optional<GradientLength<D>> length_of;
-    if (wants_sums()) length_of.emplace(layout_.gradient_factor);
     tbb::enumerable_thread_specific<VertexLister> lister_of_thread([&] { return VertexLister(points_); });
     for_each_block(layout_.facets - layout_.in_place, kListedAtATime,
                    [&](std::size_t begin, std::size_t end) {
@@ -109,12 +89,6 @@ class ListedFacets {
                      for (std::size_t i = 0; i < count; ++i)
                        list_vertices(static_cast<std::uint32_t>(first + i), lister);
                      find_dots(first, lister.rows(), count);
-                     if (!wants_sums()) return;
-                     std::array<double, kListedAtATime*(D + kMoreSums)> sums{};
-                     for (std::size_t i = 0; i < count; ++i)
-                       sum_simplices<D>(*length_of, static_cast<std::uint32_t>(first + i),
-                                        sums.data() + i * sums_width_);
-                     sums_.take(first, first + count, std::span(sums).first(count * sums_width_));
                    });
   }
 
@@ -131,50 +105,30 @@ class ListedFacets {
     lister.end_facet();
   }
 
-  template <std::size_t D>
-  void sum_simplices(const GradientLength<D>& length_of, std::uint32_t facet, double* sums) const {
-    const std::span<const SimplexId> simplices = layout_.simplices_of(FacetId{facet});
-    for (std::size_t i = 0; i < simplices.size(); ++i) {
-      const SimplexId later = later_simplex(simplices, i);
-      prefetch(complex_.plane(later).data(), D);
-      prefetch(&sums_.determinants[later.value]);
-      add_simplex<D>(length_of, sums_.determinants[simplices[i].value], complex_.plane(simplices[i]).data(),
-                     sums);
-    }
-  }
-
   /// Some places behind simplex `i` of a facet.
   SimplexId later_simplex(std::span<const SimplexId> simplices, std::size_t i) const {
     const auto first = static_cast<std::size_t>(simplices.data() - layout_.simplices.data());
     return layout_.simplices[std::min(first + i + kRowsAhead, layout_.simplices.size() - 1)];
   }
 
-  /// Row by row: of each facet the sums and one bit for each vertex.
-  template <std::size_t D>
+  /// Row by row: of each facet one bit for each vertex.
   void look_at_rows() {
-    const GradientLength<D> length_of(layout_.gradient_factor);
-    std::vector<double> sums(layout_.facets * sums_width_);
     std::vector<std::uint64_t> is_vertex(layout_.facets * words_);
     const auto last = static_cast<std::uint32_t>(complex_.row_count - 1);
     for (std::uint32_t row = 0; row <= last; ++row) {
-      const std::size_t later = facet_of_row(std::min<std::uint32_t>(row + kFacetsAhead, last));
-      prefetch(is_vertex.data() + later * words_, words_);
-      prefetch(sums.data() + later * sums_width_, sums_width_);
-      const std::size_t facet = facet_of_row(row);
-      std::uint64_t* const bits = is_vertex.data() + facet * words_;
+      prefetch(is_vertex.data() + facet_of_row(std::min<std::uint32_t>(row + kFacetsAhead, last)) * words_,
+               words_);
+      std::uint64_t* const bits = is_vertex.data() + facet_of_row(row) * words_;
       for (const PointId id : complex_.vertices(SimplexId{row})) {
         const std::uint32_t point = points_.row_of_point[id.value];
         bits[point / kBitsInWord] |= std::uint64_t{1} << (point % kBitsInWord);
       }
-      add_simplex<D>(length_of, sums_.determinants[row], complex_.plane(SimplexId{row}).data(),
-                     sums.data() + facet * sums_width_);
     }
     IdRows lists;
     for (std::size_t begin = 0; begin < layout_.facets; begin += kListedAtATime) {
       const std::size_t end = std::min(begin + kListedAtATime, layout_.facets);
       list_bits(std::span(is_vertex).subspan(begin * words_, (end - begin) * words_), lists);
       find_dots(begin, lists, end - begin);
-      sums_.take(begin, end, std::span(sums).subspan(begin * sums_width_, (end - begin) * sums_width_));
     }
   }
 
@@ -207,17 +161,14 @@ class ListedFacets {
   const CertificatePoints& points_;
   const double* normals_;
   const ListedDots& dots_;
-  const SimplexSums& sums_;
-  std::size_t sums_width_;
   std::size_t words_;  // of bits for all points
 };
 
 }  // namespace
 
 void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
-                   const CertificatePoints& points, const double* normals, const ListedDots& dots,
-                   const SimplexSums& sums) {
-  ListedFacets(complex, layout, vertices, points, normals, dots, sums).run();
+                   const CertificatePoints& points, const double* normals, const ListedDots& dots) {
+  ListedFacets(complex, layout, vertices, points, normals, dots).run();
 }
 
 }  // namespace ndhull

@@ -315,31 +315,61 @@ TEST(ApproximateHullExample, AreaOfAMergedCubeFaceIsTheFaces) {
   EXPECT_NEAR(hull.area, 10.0 * std::pow(side, 4.0), 1e-8);
 }
 
-TEST(ApproximateHullOracle, AreaOfAMergedFacetIsItsProjection) {
-  const PointSet set = rbox("300 s D4 t1");
-  HullOptions options;
-  options.accuracy.facets = 40;
+/// The area of the projection of a simplex along a unit normal: det(edges, normal) / (rank - 1)!.
+double projected_area(const Hull& hull, const PointView& points, SimplexId simplex,
+                      const Eigen::VectorXd& normal) {
+  const auto rank = static_cast<Eigen::Index>(hull.rank);
+  const auto ids = hull.simplices().vertices(simplex);
+  Eigen::MatrixXd edges(rank, rank);
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    for (Eigen::Index k = 0; k < rank; ++k) {
+      const auto column = static_cast<std::size_t>(k);
+      edges(i, k) = i == rank - 1 ? normal[k]
+                                  : points.at(ids[static_cast<std::size_t>(i) + 1].value, column) -
+                                        points.at(ids[0].value, column);
+    }
+  }
+  return std::abs(edges.determinant()) / std::tgamma(static_cast<double>(rank));
+}
+
+/// Across the simplex: the direction that all of its edges are perpendicular to.
+Eigen::VectorXd normal_of(const Hull& hull, const PointView& points, SimplexId simplex) {
+  const auto rank = static_cast<Eigen::Index>(hull.rank);
+  const auto ids = hull.simplices().vertices(simplex);
+  Eigen::MatrixXd edges(rank - 1, rank);
+  for (Eigen::Index i = 0; i + 1 < rank; ++i)
+    for (Eigen::Index k = 0; k < rank; ++k)
+      edges(i, k) = points.at(ids[static_cast<std::size_t>(i) + 1].value, static_cast<std::size_t>(k)) -
+                    points.at(ids[0].value, static_cast<std::size_t>(k));
+  return Eigen::FullPivLU<Eigen::MatrixXd>(edges).kernel().col(0).normalized();
+}
+
+void expect_areas_of_projections(const PointSet& set, const HullOptions& options) {
   const Hull hull = hull_of(set, options);
+  ASSERT_LT(hull.facet_count(), hull.simplex_count());
+  double surface = 0.0;
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
     const auto normal = hull.normal(FacetId{row});
-    double projected = 0.0;  // det(edges of the simplex, normal) / 3! is the projected area of one simplex
+    const Eigen::Map<const Eigen::VectorXd> along(normal.data(), static_cast<Eigen::Index>(normal.size()));
+    double projected = 0.0;
     for (const SimplexId simplex : hull.simplices_of(FacetId{row})) {
-      const auto ids = hull.simplices().vertices(simplex);
-      Eigen::Matrix4d edges;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto column = static_cast<Eigen::Index>(k);
-        for (std::size_t i = 1; i < 4; ++i) {
-          edges(static_cast<Eigen::Index>(i) - 1, column) =
-              set.view().at(ids[i].value, k) - set.view().at(ids[0].value, k);
-        }
-        edges(3, column) = normal[k];
-      }
-      projected += std::abs(edges.determinant()) / 6.0;
+      projected += projected_area(hull, set.view(), simplex, along);
+      surface += projected_area(hull, set.view(), simplex, normal_of(hull, set.view(), simplex));
     }
-    // Simplices that face away from the plane's normal would count with the other sign; at this width none
+    // Simplices that face away from the plane's normal would count with the other sign; at these widths none
     // do.
     EXPECT_NEAR(hull.area_of(FacetId{row}), projected, 1e-9);
   }
+  EXPECT_NEAR(hull.area, surface, 1e-9 * surface);
+}
+
+TEST(ApproximateHullOracle, AreasAreThoseOfSimplicesAndOfTheirProjections) {
+  HullOptions few;
+  few.accuracy.facets = 40;
+  expect_areas_of_projections(rbox("300 s D4 t1"), few);
+  HullOptions thin;
+  thin.accuracy.width = {0.02, false};
+  expect_areas_of_projections(rbox("120 s D6 t1"), thin);
 }
 
 TEST(OutsideWidthLaw, PointsLeftOutAreLessOutside) {
