@@ -21,6 +21,12 @@ enum class FacetObjective {
   kVolume,  ///< the volume below the outer planes, which are then chosen of those of the exact hull
 };
 
+/// How long a target is looked for.
+enum class Effort {
+  kQuick,     ///< about as long as the exact hull takes
+  kThorough,  ///< for a width half to four fifths of the facets, in 3 to 30 times the time
+};
+
 /// Which facets may be traded for which error. Nothing set: the exact hull.
 struct Accuracy {
   Length width;  ///< target: no facet is wider than this (certified); as few facets as possible
@@ -28,6 +34,9 @@ struct Accuracy {
   /// planes bound no region.
   std::uint64_t facets = 0;
   FacetObjective objective = FacetObjective::kWidth;  ///< what a target `facets` makes small
+  /// For the width of `width` and `facets`; nothing more is looked for where a hull is found without its
+  /// complex (star_hull.h).
+  Effort effort = Effort::kQuick;
   Length outside_width;     ///< growth leaves out points that are less than this outside (W)
   Length centrum_radius;    ///< merge while a centrum is less than this below its neighbour's plane (C)
   double max_cosine = 2.0;  ///< merge while normals of neighbours agree more than this (A); above 1: off

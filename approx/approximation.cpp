@@ -271,7 +271,7 @@ FacetClusters Approximation::run_width() {
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
     std::optional<DualFacets> slabs = find_disjoint_slabs(slab, false);
-    if (slabs && is_final(*slabs)) {
+    if (slabs && is_final(*slabs) && !is_thorough()) {
       hull_.chosen.outside_width = outside_width;
       hull_.chosen.slab_width = slab;
       FacetClusters clusters = clusters_of(std::move(*slabs));
@@ -280,6 +280,7 @@ FacetClusters Approximation::run_width() {
     }
     covering = cover_width(slab, std::move(slabs));
     if (covering.planes.empty()) return FacetClusters{};
+    if (is_thorough()) look_further(slab, covering);
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;

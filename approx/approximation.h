@@ -69,6 +69,7 @@ class Approximation {
   std::span<const double> find_determinants(const BlockWork& also);
   std::optional<DualFacets> find_disjoint_slabs(double width, bool is_for_count);
   bool is_final(const DualFacets& facets) const;
+  bool is_thorough() const { return accuracy_.effort == Effort::kThorough; }
   Covering cover_width(double width, std::optional<DualFacets> slabs);
   /// What the search for a number of facets remembers.
   struct CountSearch {
@@ -96,6 +97,8 @@ class Approximation {
   void probe_widths(std::uint64_t count, CountSearch& search);
   std::uint64_t balance_facets(std::uint64_t count, const Covering& start, double slab,
                                std::uint64_t most_turns, CountSearch& search);
+  bool look_further(double width, Covering& covering);
+  void look_for_narrower(std::uint64_t count, CountSearch& search);
   bool grow_for_count(std::uint64_t count, double outside_width, double slab);
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.

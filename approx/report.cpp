@@ -36,6 +36,8 @@ const char* name_of(FacetObjective objective) {
   return objective == FacetObjective::kVolume ? "volume" : "width";
 }
 
+const char* name_of(Effort effort) { return effort == Effort::kThorough ? "thorough" : "quick"; }
+
 /// What was chosen for the accuracy asked for; lengths resolved.
 Json chosen_of(const AccuracyChosen& chosen) {
   return {{"objective", name_of(chosen.objective)},
@@ -58,6 +60,7 @@ Json options_of(const ReportContext& context) {
   Json json{{"width", length(accuracy.width)},
             {"facets", limit(accuracy.facets)},
             {"objective", name_of(accuracy.objective)},
+            {"effort", name_of(accuracy.effort)},
             {"outside_width", length(accuracy.outside_width)},
             {"centrum_radius", length(accuracy.centrum_radius)},
             {"max_cosine", accuracy.max_cosine <= 1.0 ? Json(accuracy.max_cosine) : Json(nullptr)},

@@ -93,6 +93,9 @@ class Bench {
       texts += letter == ',' ? std::string(",width ") : std::string(1, letter);
     for (const OptionSet& target : parse_option_sets("width " + texts)) {
       run_ndhull_case(input, approximate, approximate_task::kTargets, target, round);
+      if (round > 0) continue;  // seconds each: their noise is small beside what they are compared with
+      run_ndhull_case(input, approximate, approximate_task::kThorough,
+                      parse_option_set(target.text + " thorough"), round);
     }
   }
 
@@ -108,7 +111,8 @@ class Bench {
 
   RunRecord new_record(const BenchInput& input, const ApproximateCase& approximate, const char* engine,
                        const char* task, const std::string& options, unsigned round) const {
-    const bool is_target = std::string(task) == approximate_task::kTargets;
+    const bool is_target =
+        std::string(task) == approximate_task::kTargets || std::string(task) == approximate_task::kThorough;
     return {.command = "approximate",
             .group = is_target ? approximate.input.name : approximate.name(),
             .task = task,
@@ -150,7 +154,7 @@ class Bench {
     file_.write(record);
     records_.push_back(record);
     const HullRun& run = record.run;
-    fmt::print("{:<34} {:<13} {:<7} {:<16} ", record.group, record.task, record.key.engine,
+    fmt::print("{:<34} {:<13} {:<7} {:<18} ", record.group, record.task, record.key.engine,
                record.key.options);
     if (record.is_done()) {
       fmt::print("{:>9} facets, width {:>7}, {:>8} s{}\n", run.facets, short_number(run.max_facet_width),

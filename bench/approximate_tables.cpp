@@ -8,11 +8,11 @@
 namespace ndhull {
 namespace {
 
-Repeats& target_of(const std::string& options, ApproximateGroup& group) {
-  for (auto& [text, repeats] : group.targets) {
+Repeats& runs_of(const std::string& options, std::vector<std::pair<std::string, Repeats>>& runs) {
+  for (auto& [text, repeats] : runs) {
     if (text == options) return repeats;
   }
-  return group.targets.emplace_back(options, Repeats{}).second;
+  return runs.emplace_back(options, Repeats{}).second;
 }
 
 std::string ratio(double numerator, double denominator) { return short_number(numerator / denominator); }
@@ -123,6 +123,27 @@ Table beside_exact(const std::vector<ApproximateGroup>& groups) {
   return table;
 }
 
+Table beside_quick(const std::vector<ApproximateGroup>& groups) {
+  Table table{.title = "Widths looked for longer",
+              .note = "Facets and seconds of ndhull: as it is asked for a width alone, and thoroughly.",
+              .columns = {"input", "width", "quick facets", "seconds", "thorough facets", "seconds",
+                          "facet ratio", "times as long"},
+              .rows = {}};
+  for (const ApproximateGroup& group : groups) {
+    for (const auto& [text, thorough] : group.thorough) {
+      const Repeats& quick = group.target(text.substr(0, text.rfind(' ')));
+      if (quick.is_empty() || thorough.is_empty()) continue;
+      table.rows.push_back(
+          {group.name, text.substr(text.find(' ') + 1, text.rfind(' ') - text.find(' ') - 1),
+           grouped_number(quick.last().facets), short_number(quick.median_seconds()),
+           grouped_number(thorough.last().facets), short_number(thorough.median_seconds()),
+           ratio(static_cast<double>(thorough.last().facets), static_cast<double>(quick.last().facets)),
+           ratio(thorough.median_seconds(), quick.median_seconds())});
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 std::vector<ApproximateGroup> approximate_groups(const std::vector<RunRecord>& records) {
@@ -142,7 +163,9 @@ std::vector<ApproximateGroup> approximate_groups(const std::vector<RunRecord>& r
     } else if (record.task == approximate_task::kEqualWidth) {
       add_repeat(record, group->equal_width);
     } else if (record.task == approximate_task::kTargets) {
-      add_repeat(record, target_of(record.key.options, *group));
+      add_repeat(record, runs_of(record.key.options, group->targets));
+    } else if (record.task == approximate_task::kThorough) {
+      add_repeat(record, runs_of(record.key.options, group->thorough));
     } else if (record.key.engine == "qhull") {
       add_repeat(record, group->qhull);
     } else {
@@ -167,7 +190,7 @@ std::vector<Table> approximate_tables(const std::vector<RunRecord>& records) {
   std::vector<Table> tables{comparison(groups, "The same options", &ApproximateGroup::equal_options),
                             comparison(groups, "The same number of facets", &ApproximateGroup::equal_facets),
                             comparison(groups, "The same width", &ApproximateGroup::equal_width),
-                            beside_exact(groups)};
+                            beside_exact(groups), beside_quick(groups)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   return tables;
 }

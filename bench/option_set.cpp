@@ -15,7 +15,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& text, std::string_view word) {
   throw Error(ErrorCode::kUsage,
               fmt::format("options \"{}\": found \"{}\", expected exact, or of W0.1, C1%, A0.95, width 5%, "
-                          "facets 500",
+                          "facets 500, thorough",
                           text, word));
 }
 
@@ -64,6 +64,10 @@ OptionSet parse_option_set(const std::string& text) {
   for (std::string word; words >> word;) {
     set.text += (set.text.empty() ? "" : " ") + word;
     if (word == "exact") continue;
+    if (word == "thorough") {
+      set.accuracy.effort = Effort::kThorough;
+      continue;
+    }
     if (word == "width" || word == "facets") {
       std::string value;
       if (!(words >> value)) refuse(text, word);

@@ -77,6 +77,33 @@ Table targets_table(const std::vector<RunRecord>& records) {
   return table;
 }
 
+Table thorough_table(const std::vector<RunRecord>& records) {
+  Table table{.title = {},
+              .note = {},
+              .columns = {"input", "`--width 1% --effort thorough`", "2%", "5%", "10%", "20%"},
+              .rows = {},
+              .left_columns = 6};
+  for (const ApproximateGroup& group : approximate_groups(records)) {
+    if (group.thorough.empty()) continue;
+    std::vector<std::string> row{input_cell(group.name, group.points)};
+    for (const char* width : {"width 1%", "width 2%", "width 5%", "width 10%", "width 20%"}) {
+      const Repeats& quick = group.target(width);
+      const auto found = std::find_if(group.thorough.begin(), group.thorough.end(), [&](const auto& runs) {
+        return runs.first == std::string(width) + " thorough";
+      });
+      if (found == group.thorough.end() || found->second.is_empty() || quick.is_empty()) {
+        row.push_back("-");
+        continue;
+      }
+      row.push_back(fmt::format(
+          "{} in {} s, {:.2f}", grouped_number(found->second.last().facets), seconds_text(found->second),
+          static_cast<double>(found->second.last().facets) / static_cast<double>(quick.last().facets)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 Table exact_table(const std::vector<RunRecord>& records) {
   Table table{.title = {},
               .note = {},
@@ -123,6 +150,7 @@ const std::vector<std::pair<std::string, MakeTable>>& makers() {
   static const std::vector<std::pair<std::string, MakeTable>> kMakers{
       {"approximate", approximate_table},
       {"targets", targets_table},
+      {"thorough", thorough_table},
       {"exact", exact_table},
       {"halfspaces", halfspaces_table},
       {"few planes", [](const Records& r) { return table_titled(selections_tables(r), "What "); }},

@@ -80,7 +80,9 @@ def test_approximate_compares_options_facets_and_width():
     assert same_width["max_facet_width"] <= qhull["max_facet_width"]
     assert records["ndhull", "targets", "exact"]["facets"] == 56576
     assert records["ndhull", "targets", "width 20%"]["max_facet_width"] <= 0.2
-    for title in ("The same options", "The same number of facets", "The same width", "beside the exact one"):
+    thorough = records["ndhull", "thorough", "width 10% thorough"]
+    assert thorough["max_facet_width"] <= 0.1 and thorough["facets"] < records["ndhull", "targets", "width 10%"]["facets"]
+    for title in ("The same options", "The same number of facets", "The same width", "beside the exact one", "longer"):
         assert title in table, table
 
     again = run(*words, "--skip-targets", "--qhull-from", str(path), "--json", str(SCRATCH / "again.jsonl"))

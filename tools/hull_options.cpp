@@ -42,6 +42,9 @@ void check_accuracy(const Accuracy& accuracy) {
   if (accuracy.merges_neighbours() && (accuracy.width.is_set() || accuracy.facets > 0))
     refuse("--centrum-radius or --max-cosine with a target",
            "--width and --facets choose how to merge: leave it out");
+  if (accuracy.effort == Effort::kThorough &&
+      ((!accuracy.width.is_set() && accuracy.facets == 0) || accuracy.is_for_volume()))
+    refuse("--effort thorough without a target width", "add --width, or --facets without --objective volume");
   if (accuracy.width_cap.is_set() && !accuracy.merges_neighbours())
     refuse("--width-cap without merging", "add --centrum-radius or --max-cosine, or ask for --width");
 }
@@ -72,6 +75,16 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
       ->type_name("WHAT")
       ->check(CLI::IsMember({"width", "volume"}).description(""))
       ->needs("--facets");
+  command
+      .add_option_function<std::string>(
+          "--effort",
+          [this](const std::string& word) {
+            options_.accuracy.effort = word == "thorough" ? Effort::kThorough : Effort::kQuick;
+          },
+          "how long --width and --facets look: about as long as the exact hull takes (quick, default), or "
+          "some to thirty times as long for fewer, or narrower, facets (thorough)")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"quick", "thorough"}).description(""));
   add_length("--outside-width", outside_width_,
              "leave out points that are less than this outside (Qhull's Wn)");
   add_length("--centrum-radius", centrum_radius_,

@@ -14,7 +14,8 @@ namespace ndhull {
 /// HullOptions as they are written on the command line: some are text until all is parsed.
 class HullOptionSet {
  public:
-  /// Adds --width, --facets, --objective, --outside-width, --centrum-radius, --max-cosine, --width-cap,
+  /// Adds --width, --facets, --objective, --effort, --outside-width, --centrum-radius, --max-cosine,
+  /// --width-cap,
   /// --max-facets,
   /// --max-seconds, --max-memory, --unit-cube, --triangulate, --threads and --seed. The set must live until
   /// the command line is parsed.

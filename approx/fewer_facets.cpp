@@ -1,0 +1,100 @@
+// More time for fewer facets, or narrower ones: the part of approx/approximation.h that looks further.
+//
+// Idea. What slabs and joins leave are facets that could not take a whole neighbour any more. So pairs join
+// into facets somewhat wider than may be, the narrowest first, and then simplices change facets and planes
+// turn (approx/facet_balance.h), which makes most of them as narrow as they have to be. Of those that stay
+// too wide the deepest simplex becomes a facet of its own, until none is: fewer come back than had joined.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "approx/approximation.h"
+#include "approx/facet_balance.h"
+
+namespace ndhull {
+namespace {
+
+/// Pairs join into facets this much wider than may be; by this part less each time.
+constexpr double kLooser = 0.3, kLooserLessEachTime = 0.8;
+constexpr int kMostCycles = 8;
+/// Turns before facets that are still too wide are split, and at most after that.
+constexpr int kQuietTurns = 4, kMostSplits = 12;
+/// A cycle that leaves more than this part of the facets was the last.
+constexpr double kHardlyFewer = 0.995;
+/// Turns in single precision make a facet wider by less than this part.
+constexpr double kTurnError = 1e-6;
+/// Widths that are looked into for a number of facets; how much narrower one has to be at least, and up to
+/// which part of the number it is not enough.
+constexpr int kMostWidths = 8, kMostInVain = 2;
+constexpr double kLeastNarrower = 0.004, kNearlyAll = 0.995;
+/// Logarithms of widths as near each other say nothing of the power.
+constexpr double kTellsOfPower = 0.02;
+
+}  // namespace
+
+/// As few facets as are found that are no wider than this over the points of the space. False: there are
+/// none, and nothing has changed. Facets may be too wide before.
+bool Approximation::look_further(double width, Covering& covering) {
+  const double cap = width * (1.0 - kTurnError);
+  FacetBalance balance(growth_.work().complex, *space_, is_convex(), covering);
+  const auto join = [&](double widest) {
+    Covering joined = balance.covering();
+    join_neighbours(joined, widest);
+    if (joined.planes.size() < balance.covering().planes.size()) balance.set_joined(std::move(joined));
+  };
+  const auto too_wide = [&] {
+    const std::vector<FittedPlane>& planes = balance.covering().planes;
+    return static_cast<std::size_t>(std::count_if(planes.begin(), planes.end(), [&](const auto& plane) {
+      return is_measured(plane) && plane.width() > cap;
+    }));
+  };
+  bool is_found = covering.widest <= width;
+  double looser = kLooser;
+  for (int cycle = 0; cycle < kMostCycles && !growth_.is_late(); ++cycle, looser *= kLooserLessEachTime) {
+    balance.turn();
+    join((1.0 + looser) * cap);
+    for (int turn = 0; turn < kQuietTurns; ++turn) balance.turn();
+    for (int turn = 0; turn < kMostSplits; ++turn) {
+      const std::size_t wide = too_wide();
+      if (wide == 0) break;
+      balance.split_widest(wide);
+      balance.turn();
+    }
+    if (too_wide() > 0) continue;
+    join(cap);
+    const std::size_t before = covering.planes.size(), now = balance.covering().planes.size();
+    if ((is_found && now >= before) || !keeps_hull(balance.covering())) break;
+    covering = balance.covering();
+    const bool was_last = is_found && static_cast<double>(now) > kHardlyFewer * static_cast<double>(before);
+    is_found = true;
+    if (was_last) break;
+  }
+  return is_found;
+}
+
+/// So many facets, narrower: their number falls like a power of the width, which shows from width to width.
+void Approximation::look_for_narrower(std::uint64_t count, CountSearch& search) {
+  const double wanted = kNearlyAll * static_cast<double>(count);
+  const double power_of_ball = 0.5 * (static_cast<double>(space_->rank()) - 1.0);
+  double power = power_of_ball, width = search.width, last_width = HUGE_VAL, last_count = 0.0;
+  int in_vain = 0;
+  for (int i = 0; i < kMostWidths && search.width > flat() && !growth_.is_late(); ++i) {
+    Covering covering = search.narrowest;
+    if (!look_further(width, covering)) return;
+    const double before = search.width, found = static_cast<double>(covering.planes.size());
+    const bool is_narrower =
+        covering.planes.size() <= count && consider(covering, search.slab, search) < before;
+    if (i > 0 && !is_narrower && ++in_vain == kMostInVain) return;
+    if (i > 0 && is_narrower && found >= wanted) return;
+    if (std::abs(std::log(last_width / width)) > kTellsOfPower) {
+      if (i > 0)
+        power = std::clamp(std::log(found / last_count) / std::log(last_width / width), 1.0, power_of_ball);
+      last_width = width;
+      last_count = found;
+    }
+    width = std::min(width * std::pow(found / wanted, 1.0 / power), (1.0 - kLeastNarrower) * search.width);
+  }
+}
+
+}  // namespace ndhull
