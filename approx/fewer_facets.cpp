@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "approx/approximation.h"
@@ -31,6 +34,41 @@ constexpr double kLeastNarrower = 0.004, kNearlyAll = 0.995;
 /// Logarithms of widths as near each other say nothing of the power.
 constexpr double kTellsOfPower = 0.02;
 
+bool is_too_wide(const FittedPlane& plane, double cap) { return is_measured(plane) && plane.width() > cap; }
+
+std::size_t count_too_wide(const Covering& covering, double cap) {
+  const auto is_one = [&](const FittedPlane& plane) { return is_too_wide(plane, cap); };
+  return static_cast<std::size_t>(std::count_if(covering.planes.begin(), covering.planes.end(), is_one));
+}
+
+/// Facets that are too wide fall into what each facet of another covering has of them, with its plane. A
+/// simplex with points far above it need not fit below a plane of its own that turning finds.
+void take_parts_of(const Covering& narrow, double cap, Covering& covering) {
+  std::vector<FittedPlane> planes;
+  std::vector<std::uint32_t> new_id(covering.planes.size(), kNone);
+  covering.widest = 0.0;
+  const auto add = [&](const FittedPlane& plane) {
+    if (is_measured(plane)) covering.widest = std::max(covering.widest, plane.width());
+    planes.push_back(plane);
+    return static_cast<std::uint32_t>(planes.size() - 1);
+  };
+  for (std::size_t facet = 0; facet < covering.planes.size(); ++facet)
+    if (!is_too_wide(covering.planes[facet], cap)) new_id[facet] = add(covering.planes[facet]);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> parts;
+  for (std::size_t row = 0; row < covering.facet_of.size(); ++row) {
+    std::uint32_t& facet = covering.facet_of[row];
+    if (facet == kNone) continue;
+    if (new_id[facet] != kNone) {
+      facet = new_id[facet];
+      continue;
+    }
+    const auto [part, is_new] = parts.try_emplace({facet, narrow.facet_of[row]}, 0);
+    if (is_new) part->second = add(narrow.planes[narrow.facet_of[row]]);
+    facet = part->second;
+  }
+  covering.planes = std::move(planes);
+}
+
 }  // namespace
 
 /// As few facets as are found that are no wider than this over the points of the space. False: there are
@@ -43,29 +81,27 @@ bool Approximation::look_further(double width, Covering& covering) {
     join_neighbours(joined, widest);
     if (joined.planes.size() < balance.covering().planes.size()) balance.set_joined(std::move(joined));
   };
-  const auto too_wide = [&] {
-    const std::vector<FittedPlane>& planes = balance.covering().planes;
-    return static_cast<std::size_t>(std::count_if(planes.begin(), planes.end(), [&](const auto& plane) {
-      return is_measured(plane) && plane.width() > cap;
-    }));
-  };
   bool is_found = covering.widest <= width;
   double looser = kLooser;
   for (int cycle = 0; cycle < kMostCycles && !growth_.is_late(); ++cycle, looser *= kLooserLessEachTime) {
     balance.turn();
     join((1.0 + looser) * cap);
-    for (int turn = 0; turn < kQuietTurns; ++turn) balance.turn();
-    for (int turn = 0; turn < kMostSplits; ++turn) {
-      const std::size_t wide = too_wide();
+    for (int turn = 0; turn < kQuietTurns && !growth_.is_late(); ++turn) balance.turn();
+    for (int turn = 0; turn < kMostSplits && !growth_.is_late(); ++turn) {
+      const std::size_t wide = count_too_wide(balance.covering(), cap);
       if (wide == 0) break;
       balance.split_widest(wide);
       balance.turn();
     }
-    if (too_wide() > 0) continue;
     join(cap);
-    const std::size_t before = covering.planes.size(), now = balance.covering().planes.size();
-    if ((is_found && now >= before) || !keeps_hull(balance.covering())) break;
-    covering = balance.covering();
+    Covering found = balance.covering();
+    if (count_too_wide(found, cap) > 0) {
+      if (!is_found) continue;
+      take_parts_of(covering, cap, found);
+    }
+    const std::size_t before = covering.planes.size(), now = found.planes.size();
+    if ((is_found && now >= before) || !keeps_hull(found)) break;
+    covering = std::move(found);
     const bool was_last = is_found && static_cast<double>(now) > kHardlyFewer * static_cast<double>(before);
     is_found = true;
     if (was_last) break;
@@ -76,7 +112,7 @@ bool Approximation::look_further(double width, Covering& covering) {
 /// So many facets, narrower: their number falls like a power of the width, which shows from width to width.
 void Approximation::look_for_narrower(std::uint64_t count, CountSearch& search) {
   const double wanted = kNearlyAll * static_cast<double>(count);
-  const double power_of_ball = 0.5 * (static_cast<double>(space_->rank()) - 1.0);
+  const double power_of_ball = std::max(1.0, 0.5 * (static_cast<double>(space_->rank()) - 1.0));
   double power = power_of_ball, width = search.width, last_width = HUGE_VAL, last_count = 0.0;
   int in_vain = 0;
   for (int i = 0; i < kMostWidths && search.width > flat() && !growth_.is_late(); ++i) {

@@ -131,6 +131,7 @@ std::vector<TradePoint> trade_curve(const PointView& points, const HullOptions& 
     HullOptions coarser = options;
     coarser.accuracy = Accuracy{};
     coarser.accuracy.width = {width, false};
+    coarser.accuracy.effort = options.accuracy.effort;
     coarser.triangulate = false;
     coarser.limits.max_seconds = end.seconds_left();
     const Hull hull = convex_hull(points, coarser);

@@ -71,9 +71,21 @@ def test_targets_and_merging():
     assert report["chosen"]["merges"] > 0 and abs(report["chosen"]["width_cap"] - 0.065) < 1e-6
 
 
+def test_more_effort_gives_fewer_or_narrower_facets():
+    words = ["hull", DIAMONDS, "--unit-cube"]
+    quick, thorough = (report_of(*words[1:], "--width", "5%", "--effort", effort, "--verify")
+                       for effort in ("quick", "thorough"))  # fmt: skip
+    assert thorough["options"]["effort"] == "thorough" and quick["options"]["effort"] == "quick"
+    assert thorough["facets"] < 0.9 * quick["facets"] and thorough["max_facet_width"] <= 0.05, thorough["facets"]
+    quick, thorough = (report_of(*words[1:], "--facets", 150, "--effort", effort, "--verify")
+                       for effort in ("quick", "thorough"))  # fmt: skip
+    assert thorough["facets"] <= 150 and thorough["max_facet_width"] < quick["max_facet_width"]
+
+
 def test_accuracy_options_that_contradict():
     for words in (["--width", "1", "--facets", "9"], ["--width", "1", "--centrum-radius", "1"],
-                  ["--width-cap", "1"], ["--max-cosine", "nan"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
+                  ["--width-cap", "1"], ["--max-cosine", "nan"], ["--effort", "thorough"], ["--effort", "more", "--width", "1"],
+                  ["--effort", "thorough", "--facets", "9", "--objective", "volume"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
         done = run("hull", DIAMONDS, *words, exit_code=1)
         assert done.stdout == "" and done.stderr.count("\n") == 1, (words, done.stderr)
 
