@@ -71,6 +71,14 @@ TEST(EffortExample, RoundHullsHaveAFifthFewerFacetsOrATwentiethNarrowerOnes) {
   }
 }
 
+// Some simplices of a cube's hull, with points above them, fit below no plane that turning finds for them
+// alone.
+TEST(EffortExample, ACubeWithSimplicesThatDoNotFitAloneHasFewerFacets) {
+  const PointSet set = family_points(PointFamily::kCube, 1000, 6, 5);
+  const std::size_t quick = hull_of(set, with_effort(Effort::kQuick, 1.0, 0)).facet_count();
+  EXPECT_LT(hull_of(set, with_effort(Effort::kThorough, 1.0, 0)).facet_count(), quick * 9 / 10);
+}
+
 TEST(EffortLaw, TheSameForAnyNumberOfThreads) {
   const PointSet set = rbox("300 s D6 t1");
   const auto planes_of = [&](HullOptions options, unsigned threads) {
