@@ -24,7 +24,7 @@ enum class FacetObjective {
 /// How long a target is looked for.
 enum class Effort {
   kQuick,     ///< about as long as the exact hull takes
-  kThorough,  ///< for a width half to four fifths of the facets, in 3 to 30 times the time
+  kThorough,  ///< up to half as many facets for a width, or narrower ones, in up to some 35 times the time
 };
 
 /// Which facets may be traded for which error. Nothing set: the exact hull.

@@ -280,10 +280,9 @@ FacetClusters Approximation::run_width() {
     }
     covering = cover_width(slab, std::move(slabs));
     if (covering.planes.empty()) return FacetClusters{};
-    TrueWidths widths = true_widths(covering);
-    if (is_thorough() && widths.widest() <= target && look_further(slab, covering))
-      widths = true_widths(covering);
+    const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
+    if (is_thorough() && widest <= target) look_for_fewer(target, covering);
     if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
     const Offenders offenders = add_offenders(covering, widths, target);
     growth_.put_back(offenders.above_simplices);

@@ -98,6 +98,7 @@ class Approximation {
   std::uint64_t balance_facets(std::uint64_t count, const Covering& start, double slab,
                                std::uint64_t most_turns, CountSearch& search);
   bool look_further(double width, Covering& covering);
+  void look_for_fewer(double width, Covering& covering);
   void look_for_narrower(std::uint64_t count, CountSearch& search);
   bool grow_for_count(std::uint64_t count, double outside_width, double slab);
   void locate_left_out(double outside_width);

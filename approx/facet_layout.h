@@ -55,7 +55,7 @@ struct FacetLayout {
   std::vector<SimplexId> simplices;         ///< facet by facet: 0, 1, 2 .. simplicial - 1, then the merged
   std::vector<FacetId> facet_of_others;     ///< of simplex in_place + i
   /// Where no row moves: facets x rank, the planes of the facets. The complex' planes and the determinants
-  /// are then the simplices', and sums over these are the facet table's work. Else empty.
+  /// are then the simplices', and sums over these are made where they are wanted (later_areas.h). Else empty.
   HugeArray<double> planes;
   std::vector<double> gradient_factor;  ///< rank x rank, times 2^-surface_exponent; where there are planes
   /// Merged facets x rank, where there are no planes: the sum of determinant times plane over the simplices;

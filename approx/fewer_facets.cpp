@@ -27,6 +27,9 @@ constexpr int kQuietTurns = 4, kMostSplits = 12;
 constexpr double kHardlyFewer = 0.995;
 /// Turns in single precision make a facet wider by less than this part.
 constexpr double kTurnError = 1e-6;
+constexpr int kMostRoundsOfPoints = 6;
+/// What joining takes: for a facet, for each dimension of it, and for a row.
+constexpr std::size_t kFacetBytes = 700, kFacetBytesOfRank = 80, kRowBytes = 24;
 /// Widths that are looked into for a number of facets; how much narrower one has to be at least, and up to
 /// which part of the number it is not enough.
 constexpr int kMostWidths = 8, kMostInVain = 2;
@@ -74,17 +77,21 @@ void take_parts_of(const Covering& narrow, double cap, Covering& covering) {
 /// As few facets as are found that are no wider than this over the points of the space. False: there are
 /// none, and nothing has changed. Facets may be too wide before.
 bool Approximation::look_further(double width, Covering& covering) {
+  const std::size_t bytes = covering.planes.size() * (kFacetBytes + kFacetBytesOfRank * space_->rank()) +
+                            covering.facet_of.size() * kRowBytes;
+  if (bytes > growth_.bytes_left() || growth_.is_late()) return false;
   const double cap = width * (1.0 - kTurnError);
   FacetBalance balance(growth_.work().complex, *space_, is_convex(), covering);
   const auto join = [&](double widest) {
+    if (growth_.is_late()) return;
     Covering joined = balance.covering();
     join_neighbours(joined, widest);
     if (joined.planes.size() < balance.covering().planes.size()) balance.set_joined(std::move(joined));
   };
   bool is_found = covering.widest <= width;
+  balance.turn();
   double looser = kLooser;
   for (int cycle = 0; cycle < kMostCycles && !growth_.is_late(); ++cycle, looser *= kLooserLessEachTime) {
-    balance.turn();
     join((1.0 + looser) * cap);
     for (int turn = 0; turn < kQuietTurns && !growth_.is_late(); ++turn) balance.turn();
     for (int turn = 0; turn < kMostSplits && !growth_.is_late(); ++turn) {
@@ -94,6 +101,7 @@ bool Approximation::look_further(double width, Covering& covering) {
       balance.turn();
     }
     join(cap);
+    balance.turn();  // those alone are as they were made
     Covering found = balance.covering();
     if (count_too_wide(found, cap) > 0) {
       if (!is_found) continue;
@@ -109,6 +117,24 @@ bool Approximation::look_further(double width, Covering& covering) {
   return is_found;
 }
 
+/// Fewer facets than a covering that fits over all points. What the fits have not seen may be above the
+/// fewer: then they see it, and it is looked for again.
+void Approximation::look_for_fewer(double width, Covering& covering) {
+  for (int round = 0; round < kMostRoundsOfPoints; ++round) {
+    Covering fewer = covering;
+    if (!look_further(width, fewer) || fewer.planes.size() >= covering.planes.size()) return;
+    const TrueWidths widths = true_widths(fewer);
+    if (widths.widest() <= width) {
+      covering = std::move(fewer);
+      return;
+    }
+    const std::size_t known = extra_.size();
+    add_offenders(fewer, widths, width);
+    if (extra_.size() == known) return;
+    make_space(true);
+  }
+}
+
 /// So many facets, narrower: their number falls like a power of the width, which shows from width to width.
 void Approximation::look_for_narrower(std::uint64_t count, CountSearch& search) {
   const double wanted = kNearlyAll * static_cast<double>(count);
@@ -117,7 +143,11 @@ void Approximation::look_for_narrower(std::uint64_t count, CountSearch& search) 
   int in_vain = 0;
   for (int i = 0; i < kMostWidths && search.width > flat() && !growth_.is_late(); ++i) {
     Covering covering = search.narrowest;
-    if (!look_further(width, covering)) return;
+    if (!look_further(width, covering)) {
+      if (i == 0 || ++in_vain == kMostInVain) return;
+      width = 0.5 * (width + search.width);
+      continue;
+    }
     const double before = search.width, found = static_cast<double>(covering.planes.size());
     const bool is_narrower =
         covering.planes.size() <= count && consider(covering, search.slab, search) < before;

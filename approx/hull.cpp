@@ -1,5 +1,7 @@
 #include "approx/hull.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +53,8 @@ void Hull::widen(double distance) {
 double Hull::input_per_length_unit(FacetId facet) const { return length_unit_.input_per_unit(normal(facet)); }
 
 const FacetLists& Hull::lists() const {
-  std::call_once(lists_->made, [this] {
+  // Isolated: a thread that waits inside must not begin other work of the caller's, which may ask again.
+  const auto make = [this] {
     const auto list = [this](const FacetLayout& layout) {
       lists_->lists = list_irregular_facets(simplices(), layout, vertices, point_count);
     };
@@ -60,7 +63,8 @@ const FacetLists& Hull::lists() const {
     } else {
       list(layout_);
     }
-  });
+  };
+  std::call_once(lists_->made, [&] { tbb::this_task_arena::isolate(make); });
   return lists_->lists;
 }
 

@@ -1,5 +1,7 @@
 #include "approx/later_areas.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -37,7 +39,8 @@ LaterAreas::Totals LaterAreas::totals(const FacetLayout& layout) const {
 }
 
 std::span<const double> LaterAreas::of_facets(const FacetLayout& layout, const double* normals) const {
-  std::call_once(is_made_, [&] { make(layout, normals); });
+  // Isolated: a thread that waits inside must not begin other work of the caller's, which may ask again.
+  std::call_once(is_made_, [&] { tbb::this_task_arena::isolate([&] { make(layout, normals); }); });
   return {areas_.data(), layout.facets};
 }
 

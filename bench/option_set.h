@@ -10,7 +10,7 @@ namespace ndhull {
 
 /// How accurate a hull is asked for. The text names it in tables, in results and on command lines.
 struct OptionSet {
-  std::string text;  ///< "exact", "W0.1 C0.01", "A0.9", "width 5%", "facets 500"
+  std::string text;  ///< "exact", "W0.1 C0.01", "A0.9", "width 5%", "facets 500", "width 5% thorough"
   Accuracy accuracy;
 
   /// A target is ndhull's alone.
@@ -19,8 +19,9 @@ struct OptionSet {
   std::string qhull_options(double largest_extent) const;
 };
 
-/// "exact", or words from: W<length>, C<length>, A<cosine>, width <length>, facets <number>; a length is
-/// a number, in percent of the largest extent with a % behind it. Throws Error kUsage on anything else.
+/// "exact", or words from: W<length>, C<length>, A<cosine>, width <length>, facets <number>, thorough; a
+/// length is a number, in percent of the largest extent with a % behind it. Throws Error kUsage on anything
+/// else.
 OptionSet parse_option_set(const std::string& text);
 
 /// Several, parted by commas.

@@ -82,7 +82,7 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
             options_.accuracy.effort = word == "thorough" ? Effort::kThorough : Effort::kQuick;
           },
           "how long --width and --facets look: about as long as the exact hull takes (quick, default), or "
-          "3 to 30 times as long for fewer, or narrower, facets (thorough)")
+          "up to 35 times as long for up to half as many, or narrower, facets (thorough)")
       ->type_name("HOW")
       ->check(CLI::IsMember({"quick", "thorough"}).description(""));
   add_length("--outside-width", outside_width_,

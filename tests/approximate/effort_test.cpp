@@ -1,7 +1,10 @@
 // What looking longer gives: fewer facets of the same width, narrower ones of the same number, and the same
 // laws.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/approximate/approximate_laws.h"
@@ -79,6 +82,39 @@ TEST(EffortExample, ACubeWithSimplicesThatDoNotFitAloneHasFewerFacets) {
   EXPECT_LT(hull_of(set, with_effort(Effort::kThorough, 1.0, 0)).facet_count(), quick * 9 / 10);
 }
 
+// So many are left out that the fits see the furthest over each simplex only.
+TEST(EffortLaw, AWidthHoldsForPointsThatTheFitsHaveNotSeen) {
+  const PointSet set = family_points(PointFamily::kSphere, 200'000, 4, 20261128);
+  const Hull quick = hull_of(set, with_effort(Effort::kQuick, 5.0, 0));
+  const Hull thorough = hull_of(set, with_effort(Effort::kThorough, 5.0, 0));
+  EXPECT_LT(thorough.facet_count(), quick.facet_count());
+  EXPECT_LE(thorough.max_facet_width, 0.05 * extent_of(set));
+  EXPECT_LE(measured_width(thorough, set.view()), thorough.max_facet_width * (1.0L + 1e-9L));
+}
+
+TEST(EffortLaw, AMemoryLimitIsKept) {
+  const PointSet set = rbox("150 s D7 t1");
+  for (const std::uint64_t megabytes : {16, 24, 32, 64}) {
+    HullOptions options = with_effort(Effort::kThorough, 1.0, 0);
+    options.limits.max_memory_bytes = megabytes << 20;
+    const Hull hull = hull_of(set, options);
+    EXPECT_LE(measured_width(hull, set.view()), hull.max_facet_width * (1.0L + 1e-9L));
+    if (hull.status == HullStatus::kComplete) EXPECT_LE(hull.max_facet_width, 0.01 * extent_of(set));
+  }
+}
+
+TEST(LaterAreas, AreTheSameForAllThreadsThatAskAndAfterAMove) {
+  const PointSet set = rbox("120 s D6 t1");
+  Hull made = hull_of(set, with_effort(Effort::kQuick, 3.0, 0));
+  const Hull hull = std::move(made), other = hull_of(set, with_effort(Effort::kQuick, 3.0, 0));
+  std::vector<double> alone(hull.facet_count()), together(hull.facet_count());
+  for (std::uint32_t id = 0; id < alone.size(); ++id) alone[id] = hull.area_of(FacetId{id});
+  tbb::parallel_for(std::size_t{0}, together.size(), [&](std::size_t id) {
+    together[id] = other.area_of(FacetId{static_cast<std::uint32_t>(id)});
+  });
+  EXPECT_TRUE(alone == together);
+}
+
 TEST(EffortLaw, TheSameForAnyNumberOfThreads) {
   const PointSet set = rbox("300 s D6 t1");
   const auto planes_of = [&](HullOptions options, unsigned threads) {
@@ -107,6 +143,7 @@ TEST(EffortLaw, WidthsHoldWhenTimeHasRunOut) {
     options.limits.max_seconds = seconds;
     const Hull hull = hull_of(set, options);
     EXPECT_EQ(hull.points_outside, 0U);
+    if (hull.status == HullStatus::kComplete) EXPECT_LE(hull.max_facet_width, 0.02 * extent_of(set));
     EXPECT_LE(measured_width(hull, set.view()), hull.max_facet_width * (1.0L + 1e-9L));
   }
 }
