@@ -94,12 +94,14 @@ TEST(EffortLaw, AWidthHoldsForPointsThatTheFitsHaveNotSeen) {
 
 TEST(EffortLaw, AMemoryLimitIsKept) {
   const PointSet set = rbox("150 s D7 t1");
-  for (const std::uint64_t megabytes : {16, 24, 32, 64}) {
+  for (const std::uint64_t megabytes : {16U, 24U, 32U, 64U}) {
     HullOptions options = with_effort(Effort::kThorough, 1.0, 0);
     options.limits.max_memory_bytes = megabytes << 20;
     const Hull hull = hull_of(set, options);
     EXPECT_LE(measured_width(hull, set.view()), hull.max_facet_width * (1.0L + 1e-9L));
-    if (hull.status == HullStatus::kComplete) EXPECT_LE(hull.max_facet_width, 0.01 * extent_of(set));
+    if (hull.status == HullStatus::kComplete) {
+      EXPECT_LE(hull.max_facet_width, 0.01 * extent_of(set));
+    }
   }
 }
 
@@ -143,7 +145,9 @@ TEST(EffortLaw, WidthsHoldWhenTimeHasRunOut) {
     options.limits.max_seconds = seconds;
     const Hull hull = hull_of(set, options);
     EXPECT_EQ(hull.points_outside, 0U);
-    if (hull.status == HullStatus::kComplete) EXPECT_LE(hull.max_facet_width, 0.02 * extent_of(set));
+    if (hull.status == HullStatus::kComplete) {
+      EXPECT_LE(hull.max_facet_width, 0.02 * extent_of(set));
+    }
     EXPECT_LE(measured_width(hull, set.view()), hull.max_facet_width * (1.0L + 1e-9L));
   }
 }
