@@ -12,10 +12,6 @@
 namespace ndhull {
 namespace {
 
-struct FamilySize {
-  PointFamily family;
-  std::size_t n, d;
-};
 const FamilySize kShapes[] = {{PointFamily::kSphere, 400, 3},   {PointFamily::kSphere, 300, 5},
                               {PointFamily::kBall, 500, 4},     {PointFamily::kGaussian, 3000, 5},
                               {PointFamily::kGaussian, 200, 7}, {PointFamily::kCube, 400, 6},

@@ -14,6 +14,12 @@
 
 namespace ndhull {
 
+/// Points to look at: so many of a family.
+struct FamilySize {
+  PointFamily family;
+  std::size_t n, d;
+};
+
 /// Outer minus inner of the widest facet from all points and all vertices of its simplices, in long double.
 inline long double measured_width(const Hull& hull, const PointView& points) {
   long double widest = 0.0L;

@@ -23,18 +23,14 @@ HullOptions with_effort(Effort effort, double percent, std::uint64_t facets) {
   return options;
 }
 
-struct ShapeLookedInto {
-  PointFamily family;
-  std::size_t n, d;
-};
-const ShapeLookedInto kShapesLookedInto[] = {
+const FamilySize kShapesLookedInto[] = {
     {PointFamily::kSphere, 400, 3},    {PointFamily::kSphere, 300, 5},    {PointFamily::kBall, 500, 4},
     {PointFamily::kGaussian, 3000, 5}, {PointFamily::kGaussian, 200, 7},  {PointFamily::kCube, 400, 6},
     {PointFamily::kClusters, 500, 4},  {PointFamily::kEllipsoid, 300, 5}, {PointFamily::kLens, 200, 4},
     {PointFamily::kLattice, 729, 6},   {PointFamily::kCubeCorners, 64, 6}};
 
 TEST(EffortLaw, AWidthIsMetByNoMoreFacets) {
-  for (const ShapeLookedInto& shape : kShapesLookedInto) {
+  for (const FamilySize& shape : kShapesLookedInto) {
     for (const double percent : {0.5, 5.0, 20.0}) {
       const PointSet set = family_points(shape.family, shape.n, shape.d, 20261126);
       SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
@@ -49,7 +45,7 @@ TEST(EffortLaw, AWidthIsMetByNoMoreFacets) {
 }
 
 TEST(EffortLaw, ANumberIsMetByNoWiderFacets) {
-  for (const ShapeLookedInto& shape : kShapesLookedInto) {
+  for (const FamilySize& shape : kShapesLookedInto) {
     for (const std::uint64_t count : {shape.d + 1, std::size_t{40}, std::size_t{400}}) {
       const PointSet set = family_points(shape.family, shape.n, shape.d, 20261127);
       SCOPED_TRACE(std::string(to_string(shape.family)) + " " + std::to_string(shape.d) + "-d, " +
@@ -92,7 +88,7 @@ TEST(EffortLaw, AWidthHoldsForPointsThatTheFitsHaveNotSeen) {
   EXPECT_LE(measured_width(thorough, set.view()), thorough.max_facet_width * (1.0L + 1e-9L));
 }
 
-TEST(EffortLaw, AMemoryLimitIsKept) {
+TEST(EffortLaw, WidthsHoldUnderALimitOnMemory) {
   const PointSet set = rbox("150 s D7 t1");
   for (const std::uint64_t megabytes : {16U, 24U, 32U, 64U}) {
     HullOptions options = with_effort(Effort::kThorough, 1.0, 0);
