@@ -1,12 +1,16 @@
 #include "approx/cluster_merge.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
+#include <optional>
 #include <queue>
+#include <utility>
 #include <vector>
 
+#include "core/blocks.h"
 #include "core/ids.h"
 #include "core/prefetch.h"
 
@@ -17,6 +21,14 @@ namespace {
 constexpr double kHopeless = 2.0;
 constexpr unsigned kTrialSteps = 6;   // of the fit when a pair is judged
 constexpr unsigned kMergeSteps = 16;  // and in all when it is merged
+constexpr std::size_t kClustersAtATime = 16;
+
+void put_union(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
+               std::vector<std::uint32_t>& both) {
+  both.resize(a.size() + b.size());
+  const auto end = std::set_union(a.begin(), a.end(), b.begin(), b.end(), both.begin());
+  both.erase(end, both.end());
+}
 
 class Merging {
  public:
@@ -26,10 +38,7 @@ class Merging {
 
   MergeCounts run() {
     make_clusters();
-    for (std::uint32_t id = 0; id < clusters_.size(); ++id) {
-      for (const std::uint32_t other : clusters_[id].neighbours)
-        if (id < other) announce(id, other);
-    }
+    announce_all();
     while (!offers_.empty() && live_ > rule_.least_facets) {
       const Offer best = offers_.top();
       offers_.pop();
@@ -65,6 +74,17 @@ class Merging {
     }
   };
 
+  /// What a thread that looks at pairs needs.
+  struct PairWork {
+    std::vector<double> normal;
+    std::vector<std::uint32_t> united, near;  // the union's vertices; points that are likely to be above it
+    PlaneFitWork fit;
+  };
+  /// What a thread that lists clusters needs: the last that met a vertex, or a facet.
+  struct ListWork {
+    std::vector<std::uint32_t> vertex_seen, facet_seen;
+  };
+
   std::uint32_t root(std::uint32_t id) const {
     while (clusters_[id].joined != kNone) id = clusters_[id].joined;
     return id;
@@ -80,17 +100,20 @@ class Merging {
     } else {
       list_by_facets();
     }
-    for (std::uint32_t id = 0; id < count; ++id) {
-      Cluster& cluster = clusters_[id];
-      cluster.plane = std::move(covering_.planes[id]);
-      if (cluster.plane.height == 0.0) {  // a simplex with its own plane
-        cluster.plane = measure_plane(space_, cluster.plane.normal, cluster.vertices, work_);
-      } else {
-        cluster.plane.low = lowest_dot(space_, cluster.plane.normal, cluster.vertices);
+    for_each_block(count, kClustersAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t id = begin; id < end; ++id) {
+        Cluster& cluster = clusters_[id];
+        cluster.plane = std::move(covering_.planes[id]);
+        if (cluster.plane.height == 0.0) {  // a simplex with its own plane
+          cluster.plane =
+              measure_plane(space_, cluster.plane.normal, cluster.vertices, pair_work_.local().fit);
+        } else {
+          cluster.plane.low = lowest_dot(space_, cluster.plane.normal, cluster.vertices);
+        }
+        cluster.tops.assign(1, cluster.plane.highest);
+        cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
       }
-      cluster.tops.assign(1, cluster.plane.highest);
-      cluster.centrum = centrum_on_plane(space_, cluster.vertices, cluster.plane);
-    }
+    });
   }
 
   /// Vertices and neighbours of few facets: a table each, filled as the rows stand in memory.
@@ -119,118 +142,153 @@ class Merging {
   void list_by_facets() {
     const std::size_t count = clusters_.size();
     const FacetMembers members_of(covering_);
-    std::vector<std::uint32_t> vertex_seen(space_.table().count(), kNone), facet_seen(count, kNone);
-    const auto add = [](std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& seen,
-                        std::uint32_t entry, std::uint32_t id) {
+    tbb::enumerable_thread_specific<ListWork> list_work([&] {
+      return ListWork{std::vector<std::uint32_t>(space_.table().count(), kNone),
+                      std::vector<std::uint32_t>(count, kNone)};
+    });
+    for_each_block(count, kClustersAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t id = begin; id < end; ++id)
+        list_facet(static_cast<std::uint32_t>(id), members_of.of(id), list_work.local());
+    });
+  }
+
+  void list_facet(std::uint32_t id, std::span<const std::uint32_t> rows, ListWork& work) {
+    const auto add = [&](std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& seen,
+                         std::uint32_t entry) {
       if (seen[entry] == id) return;
       seen[entry] = id;
       list.push_back(entry);
     };
     constexpr std::size_t kRowsAhead = 8, kNeighboursAhead = 3;  // whose way from memory has begun
-    for (std::uint32_t id = 0; id < count; ++id) {
-      Cluster& cluster = clusters_[id];
-      const std::span<const std::uint32_t> rows = members_of.of(id);
-      facet_seen[id] = id;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        const SimplexId later{rows[std::min(i + kRowsAhead, rows.size() - 1)]};
-        prefetch(complex_.vertices(later).data());
-        prefetch(&complex_.neighbours(later).back());
-        const SimplexId soon{rows[std::min(i + kNeighboursAhead, rows.size() - 1)]};
-        for (const SimplexId neighbour : complex_.neighbours(soon))
-          prefetch(&covering_.facet_of[neighbour.value]);
-        for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
-          add(cluster.vertices, vertex_seen, space_.row_of(point), id);
-        for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))
-          add(cluster.neighbours, facet_seen, covering_.facet_of[neighbour.value], id);
-      }
-      std::sort(cluster.vertices.begin(), cluster.vertices.end());
-      std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
+    Cluster& cluster = clusters_[id];
+    work.facet_seen[id] = id;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const SimplexId later{rows[std::min(i + kRowsAhead, rows.size() - 1)]};
+      prefetch(complex_.vertices(later).data());
+      prefetch(&complex_.neighbours(later).back());
+      const SimplexId soon{rows[std::min(i + kNeighboursAhead, rows.size() - 1)]};
+      for (const SimplexId neighbour : complex_.neighbours(soon))
+        prefetch(&covering_.facet_of[neighbour.value]);
+      for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
+        add(cluster.vertices, work.vertex_seen, space_.row_of(point));
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))
+        add(cluster.neighbours, work.facet_seen, covering_.facet_of[neighbour.value]);
     }
+    std::sort(cluster.vertices.begin(), cluster.vertices.end());
+    std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
   }
 
   bool is_wanted(const Cluster& a, const Cluster& b) const {
     return rule_.wants(a.plane, a.centrum, b.plane, b.centrum);
   }
 
-  /// normal_: the mean of the normals, weighted by the number of vertices.
-  void take_mean(const Cluster& a, const Cluster& b) {
-    normal_.resize(space_.rank());
+  /// work.normal: the mean of the normals, weighted by the number of vertices.
+  void take_mean(const Cluster& a, const Cluster& b, PairWork& work) const {
+    std::vector<double>& normal = work.normal;
+    normal.resize(space_.rank());
     double length_sq = 0.0;
-    for (std::size_t k = 0; k < normal_.size(); ++k) {
-      normal_[k] = static_cast<double>(a.vertices.size()) * a.plane.normal[k] +
-                   static_cast<double>(b.vertices.size()) * b.plane.normal[k];
-      length_sq += normal_[k] * normal_[k];
+    for (std::size_t k = 0; k < normal.size(); ++k) {
+      normal[k] = static_cast<double>(a.vertices.size()) * a.plane.normal[k] +
+                  static_cast<double>(b.vertices.size()) * b.plane.normal[k];
+      length_sq += normal[k] * normal[k];
     }
-    if (!(length_sq > 0.0)) normal_ = a.plane.normal, length_sq = 1.0;
-    for (double& entry : normal_) entry /= std::sqrt(length_sq);
+    if (!(length_sq > 0.0)) normal = a.plane.normal, length_sq = 1.0;
+    for (double& entry : normal) entry /= std::sqrt(length_sq);
   }
 
-  /// united_: the union's vertices.
-  void unite(const Cluster& a, const Cluster& b) {
-    united_.clear();
-    std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
-                   std::back_inserter(united_));
+  /// work.united: the union's vertices.
+  void unite(const Cluster& a, const Cluster& b, PairWork& work) const {
+    put_union(a.vertices, b.vertices, work.united);
   }
 
-  /// Is the union too wide to be fitted, among its vertices and near_, along normal_? The first few vertices
-  /// tell of most.
-  bool is_hopeless(const Cluster& a, const Cluster& b) const {
+  /// Is the union too wide to be fitted, among its vertices and the tops of the two, along their mean normal?
+  /// The first few vertices tell of most.
+  bool is_hopeless(const Cluster& a, const Cluster& b, PairWork& work) const {
+    take_mean(a, b, work);
     const double most = kHopeless * rule_.width_cap;
     double low = HUGE_VAL, high = -HUGE_VAL;
+    const auto dot_with = [&](std::uint32_t row) {
+      return std::inner_product(work.normal.begin(), work.normal.end(), space_.row(row), 0.0);
+    };
     const auto meet = [&](std::uint32_t row) {
-      const double dot = std::inner_product(normal_.begin(), normal_.end(), space_.row(row), 0.0);
+      const double dot = dot_with(row);
       low = std::min(low, dot);
       high = std::max(high, dot);
       return high - low > most;
     };
-    for (const std::uint32_t row : near_)
-      high = std::max(high, std::inner_product(normal_.begin(), normal_.end(), space_.row(row), 0.0));
+    for (const Cluster* cluster : {&a, &b}) {
+      for (const std::uint32_t row : cluster->tops) high = std::max(high, dot_with(row));
+    }
     return std::any_of(a.vertices.begin(), a.vertices.end(), meet) ||
            std::any_of(b.vertices.begin(), b.vertices.end(), meet);
   }
 
-  FittedPlane mean_plane(const Cluster& a, const Cluster& b) {
-    unite(a, b);
-    take_mean(a, b);
-    return measure_plane(space_, normal_, united_, work_);
+  FittedPlane mean_plane(const Cluster& a, const Cluster& b, PairWork& work) const {
+    unite(a, b, work);
+    take_mean(a, b, work);
+    return measure_plane(space_, work.normal, work.united, work.fit);
   }
 
-  /// Puts the pair into the queue with a width that the union is not narrower than, to be looked at when its
-  /// turn comes. Most pairs are gone by then.
-  void announce(std::uint32_t a, std::uint32_t b) {
+  /// The pair with a width that the union is not narrower than, to be looked at when its turn comes: many
+  /// are gone by then. Nothing: they are not merged.
+  std::optional<Offer> first_offer(std::uint32_t a, std::uint32_t b, PairWork& work) const {
     const Cluster& first = clusters_[a];
     const Cluster& second = clusters_[b];
-    if (!is_wanted(first, second)) return;
+    if (!is_wanted(first, second) || is_hopeless(first, second, work)) return std::nullopt;
     const double least = std::max(first.plane.width(), second.plane.width());
-    offers_.push({least, a, b, first.version, second.version, Stage::kParts});
+    return Offer{least, a, b, first.version, second.version, Stage::kParts};
   }
 
   /// The same with the width among the union's vertices and tops: most pairs that are too wide are so for
   /// these.
-  void offer_tops(std::uint32_t a, std::uint32_t b, double least) {
-    const Cluster& first = clusters_[a];
-    const Cluster& second = clusters_[b];
-    take_mean(first, second);
-    near_ = first.tops;
-    near_.insert(near_.end(), second.tops.begin(), second.tops.end());
-    if (is_hopeless(first, second)) return;  // the more so over all points
-    unite(first, second);
-    const double width = turn_among(space_, normal_, near_, united_, kTrialSteps, work_);
-    if (width > rule_.width_cap) return;
-    offers_.push({std::max(width, least), a, b, first.version, second.version, Stage::kTops});
+  std::optional<Offer> offer_of_tops(const Offer& first, PairWork& work) const {
+    const Cluster& a = clusters_[first.a];
+    const Cluster& b = clusters_[first.b];
+    take_mean(a, b, work);
+    work.near = a.tops;
+    work.near.insert(work.near.end(), b.tops.begin(), b.tops.end());
+    unite(a, b, work);
+    const double width = turn_among(space_, work.normal, work.near, work.united, kTrialSteps, work.fit);
+    if (width > rule_.width_cap) return std::nullopt;
+    Offer offer = first;
+    offer.width = std::max(width, first.width);
+    offer.stage = Stage::kTops;
+    return offer;
+  }
+
+  /// All pairs. Where there are threads for it they are looked at here, a stage further: nobody waits for
+  /// those that would be gone by then.
+  void announce_all() {
+    std::vector<std::vector<Offer>> of_block((clusters_.size() + kClustersAtATime - 1) / kClustersAtATime);
+    const bool looks_further = has_more_threads();
+    for_each_block(clusters_.size(), kClustersAtATime, [&](std::size_t begin, std::size_t end) {
+      PairWork& work = pair_work_.local();
+      for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id) {
+        for (const std::uint32_t other : clusters_[id].neighbours) {
+          if (other < id) continue;
+          std::optional<Offer> offer = first_offer(id, other, work);
+          if (offer && looks_further) offer = offer_of_tops(*offer, work);
+          if (offer) of_block[begin / kClustersAtATime].push_back(*offer);
+        }
+      }
+    });
+    std::vector<Offer> all;
+    for (const std::vector<Offer>& offers : of_block) all.insert(all.end(), offers.begin(), offers.end());
+    offers_ = std::priority_queue<Offer>(std::less<Offer>(), std::move(all));
   }
 
   /// The same with the width of a fit; what is the narrowest offer even so is taken at once.
   void offer_fit(std::uint32_t a, std::uint32_t b) {
-    const FittedPlane start = mean_plane(clusters_[a], clusters_[b]);
+    PairWork& work = pair_work_.local();
+    const FittedPlane start = mean_plane(clusters_[a], clusters_[b], work);
     if (start.width() > kHopeless * rule_.width_cap) return;
-    const double width = turn_among_near(space_, start, united_, kTrialSteps, work_);
+    const double width = turn_among_near(space_, start, work.united, kTrialSteps, work.fit);
     if (width > rule_.width_cap) return;
     const Offer fitted{width, a, b, clusters_[a].version, clusters_[b].version, Stage::kFitted};
     if (!offers_.empty() && fitted < offers_.top()) {
       offers_.push(fitted);
     } else {
-      merge(a, b, start);
+      merge(a, b, start, work);
     }
   }
 
@@ -240,19 +298,22 @@ class Merging {
     if (into.joined != kNone || from.joined != kNone) return;
     if (into.version != best.version_a || from.version != best.version_b) return;  // announced anew since
     switch (best.stage) {
-      case Stage::kParts: return offer_tops(best.a, best.b, best.width);
+      case Stage::kParts:
+        if (const std::optional<Offer> offer = offer_of_tops(best, pair_work_.local())) offers_.push(*offer);
+        return;
       case Stage::kTops: return offer_fit(best.a, best.b);
       case Stage::kFitted: break;
     }
-    const FittedPlane start = mean_plane(into, from);
-    turn_among_near(space_, start, united_, kTrialSteps, work_);
-    merge(best.a, best.b, start);
+    PairWork& work = pair_work_.local();
+    const FittedPlane start = mean_plane(into, from, work);
+    turn_among_near(space_, start, work.united, kTrialSteps, work.fit);
+    merge(best.a, best.b, start, work);
   }
 
-  /// Merges b into a if that is within the cap: united_ and work_ are those of the trial fit from `start`.
-  void merge(std::uint32_t a, std::uint32_t b, const FittedPlane& start) {
-    turn_further(kMergeSteps - kTrialSteps, work_);
-    FittedPlane plane = measure_plane(space_, work_.best, united_, work_);
+  /// Merges b into a if that is within the cap: `work` is that of the trial fit from `start`.
+  void merge(std::uint32_t a, std::uint32_t b, const FittedPlane& start, PairWork& work) {
+    turn_further(kMergeSteps - kTrialSteps, work.fit);
+    FittedPlane plane = measure_plane(space_, work.fit.best, work.united, work.fit);
     if (plane.width() > start.width()) plane = start;
     if (plane.width() > rule_.width_cap) return;
     Cluster& into = clusters_[a];
@@ -260,19 +321,19 @@ class Merging {
     ++counts_.merges;
     --live_;
     into.plane = std::move(plane);
-    into.vertices = united_;
-    into.tops.assign(work_.points.tops().begin(), work_.points.tops().end());
+    into.vertices = work.united;
+    into.tops.assign(work.fit.points.tops().begin(), work.fit.points.tops().end());
     ++into.version;
     from.joined = a;
     std::vector<std::uint32_t> around;
-    std::set_union(into.neighbours.begin(), into.neighbours.end(), from.neighbours.begin(),
-                   from.neighbours.end(), std::back_inserter(around));
+    put_union(into.neighbours, from.neighbours, around);
     std::erase_if(around, [&](std::uint32_t id) { return id == a || id == b; });
     into.neighbours = std::move(around);
     into.centrum = centrum_on_plane(space_, into.vertices, into.plane);
     for (const std::uint32_t id : into.neighbours) {
       rename(clusters_[id].neighbours, b, a);
-      announce(std::min(a, id), std::max(a, id));
+      if (const std::optional<Offer> offer = first_offer(std::min(a, id), std::max(a, id), work))
+        offers_.push(*offer);
     }
     from = Cluster{
         .plane = {}, .vertices = {}, .neighbours = {}, .tops = {}, .centrum = {}, .version = 0, .joined = a};
@@ -317,9 +378,7 @@ class Merging {
   std::vector<Cluster> clusters_;
   std::size_t live_ = 0;
   std::priority_queue<Offer> offers_;
-  std::vector<std::uint32_t> united_, near_;
-  std::vector<double> normal_;
-  PlaneFitWork work_;
+  tbb::enumerable_thread_specific<PairWork> pair_work_;
   MergeCounts counts_;
 };
 

@@ -36,6 +36,8 @@ constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
 /// are balanced, which uses what there is: of coverings that take long, and of others. Further off than the
 /// last, a step goes beyond the number.
 constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
+/// The same for a first width, and the least part of it that is left without the points left out.
+constexpr double kRoughly = 0.5, kLeastOfGuess = 0.4;
 /// Steps of the width that are tried about the narrowest found, in vain each, and turns that balance what
 /// they find; simplices that they meet. Where facets hold hundreds of simplices they find hardly anything.
 constexpr double kProbeStep = 0.95;
@@ -252,14 +254,17 @@ bool Approximation::is_coarse_for(double slab, double outside_width) {
   return height > kTooNearSlab * slab && live_count() < kMostWorthGrowing;
 }
 
-/// What so many facets may be as wide as, from a coarse hull; 0 where that was not found out.
+/// What so many facets may be as wide as, from a coarse hull; 0 where that was not found out. Slabs of the
+/// coarse one hold the points left out as well: those of the hull that is wanted are thinner by about their
+/// height.
 double Approximation::guess_width(std::uint64_t count, CountSearch& search) {
   const std::uint64_t rows = std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count);
   if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return 0.0;
   make_space(false);
   const double start = std::max(0.1 * lengths_.largest_extent, 1.1 * growth_.furthest_height());
-  const Covering covering = cover_count(count, kPlain, start, kSome, search);
-  return covering.planes.empty() ? start : hull_.chosen.slab_width;
+  if (cover_count(count, kPlain, start, kRoughly, search).planes.empty()) return start;
+  const double slab = hull_.chosen.slab_width;
+  return std::max(slab - growth_.furthest_height(), kLeastOfGuess * slab);
 }
 
 // A simplex with a point left out too far above it is too wide alone, whatever the slabs are: such points are

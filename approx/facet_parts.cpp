@@ -1,13 +1,19 @@
 #include "approx/facet_parts.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "approx/slab_growth.h"
+#include "core/blocks.h"
+#include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -35,91 +41,85 @@ double depth_below(const SimplicialComplex& complex, const WidthSpace& space,
   return plane.height - low;
 }
 
-/// Connected parts of facets: each row's part is known by its first row.
-class FacetParts {
+/// Finds the connected parts of some facets, one after the other. One thread's.
+class PartFinder {
  public:
-  /// Id: as small as holds all facets, since looking these up is what takes the time; its largest: none, or
-  /// not asked about.
-  template <class Id>
-  FacetParts(const SimplicialComplex& complex, const std::vector<Id>& facet_of) : first_(complex.row_count) {
-    // Rows as they stand in memory; each ridge from the later of its two. Which neighbours are of the same
-    // facet is not to be foreseen: they are listed without a branch for each.
-    std::array<std::uint32_t, kMaxRank> same;
-    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-      first_[row] = row;
-      const Id facet = facet_of[row];
-      if (facet == std::numeric_limits<Id>::max()) continue;
-      std::size_t count = 0;
-      for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) {
-        same[count] = neighbour.value;
-        count += static_cast<std::size_t>(neighbour.value < row) &
-                 static_cast<std::size_t>(facet_of[neighbour.value] == facet);
-      }
-      std::uint32_t root = row;
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t other = find(same[i]);
-        if (other == root) continue;
-        first_[std::max(other, root)] = std::min(other, root);
-        root = std::min(other, root);
-      }
+  /// is_met: per row of the complex, 0 for those of the facets to come; by several finders at a time, since
+  /// each touches rows of its own facets only.
+  PartFinder(const SimplicialComplex& complex, const Covering& covering, std::vector<std::uint8_t>& is_met)
+      : complex_(complex), covering_(covering), is_met_(is_met) {}
+
+  /// Adds all parts but the largest of a facet, the first of several; each in ascending order.
+  void add_strays(std::uint32_t facet, std::span<const std::uint32_t> members, std::vector<Stray>& strays) {
+    met_.clear();
+    flood(members.front(), facet);
+    if (met_.size() == members.size()) return;
+    std::vector<std::size_t> begin{0, met_.size()};  // of the parts
+    for (const std::uint32_t row : members) {
+      if (is_met_[row] != 0) continue;
+      flood(row, facet);
+      begin.push_back(met_.size());
+    }
+    std::size_t largest = 0;
+    for (std::size_t part = 1; part + 1 < begin.size(); ++part)
+      if (begin[part + 1] - begin[part] > begin[largest + 1] - begin[largest]) largest = part;
+    for (std::size_t part = 0; part + 1 < begin.size(); ++part) {
+      if (part == largest) continue;
+      Stray stray{facet, {met_.data() + begin[part], met_.data() + begin[part + 1]}};
+      std::sort(stray.simplices.begin(), stray.simplices.end());
+      strays.push_back(std::move(stray));
     }
   }
-  /// Valid for ascending rows, once each.
-  std::uint32_t part_of(std::uint32_t row) { return first_[row] = first_[first_[row]]; }
 
  private:
-  std::uint32_t find(std::uint32_t row) {
-    while (first_[row] != row) row = first_[row] = first_[first_[row]];
-    return row;
+  /// met_: what a row reaches within its facet, itself first. Which neighbours these are is not to be
+  /// foreseen: they are listed without a branch for each.
+  void flood(std::uint32_t start, std::uint32_t facet) {
+    constexpr std::size_t kRowsAhead = 4;
+    std::size_t next = met_.size();
+    met_.push_back(start);
+    is_met_[start] = 1;
+    for (; next < met_.size(); ++next) {
+      prefetch(complex_.neighbours(SimplexId{met_[std::min(next + kRowsAhead, met_.size() - 1)]}).data(),
+               complex_.rank);
+      std::array<std::uint32_t, kMaxRank> open;
+      std::size_t count = 0;
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{met_[next]})) {
+        open[count] = neighbour.value;
+        count += static_cast<std::size_t>(covering_.facet_of[neighbour.value] == facet) &
+                 static_cast<std::size_t>(is_met_[neighbour.value] == 0);
+      }
+      for (std::size_t i = 0; i < count; ++i) is_met_[open[i]] = 1;
+      met_.insert(met_.end(), open.begin(), open.begin() + count);
+    }
   }
-  std::vector<std::uint32_t> first_;
+
+  const SimplicialComplex& complex_;
+  const Covering& covering_;
+  std::vector<std::uint8_t>& is_met_;
+  std::vector<std::uint32_t> met_;
 };
 
 /// All connected parts of the facets but the largest of each, in the order of their first simplex.
-/// Id: std::uint16_t where that holds all facets.
-template <class Id>
 std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering& covering,
                                std::span<const std::uint8_t> is_asked) {
-  constexpr Id kNoId = std::numeric_limits<Id>::max();
-  std::vector<Id> facet_of(complex.row_count);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const std::uint32_t facet = covering.facet_of[row];
-    const bool is_left_out = facet == kNone || (!is_asked.empty() && is_asked[facet] == 0);
-    facet_of[row] = is_left_out ? kNoId : static_cast<Id>(facet);
-  }
-  FacetParts parts(complex, facet_of);
-  std::vector<std::uint32_t> size_of(complex.row_count, 0), largest_of(covering.planes.size(), kNone);
-  std::vector<std::uint32_t> others;  // first rows of the parts that are not a facet's first
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const Id facet = facet_of[row];
-    if (facet == kNoId) continue;
-    const std::uint32_t part = parts.part_of(row);
-    ++size_of[part];
-    if (part != row) continue;
-    if (largest_of[facet] == kNone) {
-      largest_of[facet] = part;
-    } else {
-      others.push_back(part);
+  constexpr std::size_t kFacetsAtATime = 16;
+  const FacetMembers members_of(covering);
+  std::vector<std::uint8_t> is_met(complex.row_count, 0);
+  std::vector<std::vector<Stray>> of_block((covering.planes.size() + kFacetsAtATime - 1) / kFacetsAtATime);
+  tbb::enumerable_thread_specific<PartFinder> finders([&] { return PartFinder(complex, covering, is_met); });
+  for_each_block(covering.planes.size(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    PartFinder& finder = finders.local();
+    for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+      const std::span<const std::uint32_t> members = members_of.of(facet);
+      if (members.size() > 1 && (is_asked.empty() || is_asked[facet] != 0))
+        finder.add_strays(facet, members, of_block[begin / kFacetsAtATime]);
     }
-  }
-  if (others.empty()) return {};
-  for (const std::uint32_t part : others) {
-    std::uint32_t& largest = largest_of[facet_of[part]];
-    if (size_of[part] > size_of[largest]) largest = part;
-  }
+  });
   std::vector<Stray> strays;
-  std::vector<std::uint32_t> place_of(complex.row_count, kNone);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const Id facet = facet_of[row];
-    if (facet == kNoId) continue;
-    const std::uint32_t part = parts.part_of(row);
-    if (largest_of[facet] == part) continue;
-    if (part == row) {
-      place_of[part] = static_cast<std::uint32_t>(strays.size());
-      strays.push_back({facet, {}});
-    }
-    strays[place_of[part]].simplices.push_back(row);
-  }
+  for (std::vector<Stray>& some : of_block) std::move(some.begin(), some.end(), std::back_inserter(strays));
+  std::sort(strays.begin(), strays.end(),
+            [](const Stray& a, const Stray& b) { return a.simplices.front() < b.simplices.front(); });
   return strays;
 }
 
@@ -128,9 +128,7 @@ std::vector<Stray> find_strays(const SimplicialComplex& complex, const Covering&
 void gather_strays(const SimplicialComplex& complex, const WidthSpace& space, double width,
                    Covering& covering, std::vector<float>& depth_of, PlaneFitWork& work,
                    std::span<const std::uint8_t> is_asked) {
-  const bool are_few = covering.planes.size() < std::numeric_limits<std::uint16_t>::max();
-  const std::vector<Stray> strays = are_few ? find_strays<std::uint16_t>(complex, covering, is_asked)
-                                            : find_strays<std::uint32_t>(complex, covering, is_asked);
+  const std::vector<Stray> strays = find_strays(complex, covering, is_asked);
   std::vector<std::uint32_t> hosts;
   for (const Stray& stray : strays) {
     hosts.clear();

@@ -18,7 +18,7 @@ namespace ndhull {
 /// what
 ///         moves it is set. is_asked: per facet, not 0: it may have several parts; empty: all may. Planes
 ///         that were not measured and are needed are measured: their low is infinite.
-/// Cost    each ridge of these facets once, and the parts that move again.
+/// Cost    each ridge of these facets twice, by all threads, and the parts that move again.
 void gather_strays(const SimplicialComplex& complex, const WidthSpace& space, double width,
                    Covering& covering, std::vector<float>& depth_of, PlaneFitWork& work,
                    std::span<const std::uint8_t> is_asked = {});
