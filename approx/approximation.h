@@ -91,7 +91,12 @@ class Approximation {
                        CountSearch& search);
   std::size_t live_count() const { return growth_.work().complex.row_count - growth_.work().free_count; }
   bool is_coarse_for(double slab, double outside_width);
-  double guess_width(std::uint64_t count, CountSearch& search);
+  /// What slabs for a number of facets may be as thick as.
+  struct SlabGuess {
+    double coarse = 0.0;  // where growth has just begun; 0: that was not found out
+    double slab = 0.0;    // in the hull that is wanted, about
+  };
+  SlabGuess guess_slab(std::uint64_t count, CountSearch& search);
   double consider(const Covering& covering, double slab, CountSearch& search);
   void close_and_join(Covering& covering, double width, bool joins) const;
   void probe_widths(std::uint64_t count, CountSearch& search);
@@ -100,7 +105,7 @@ class Approximation {
   bool look_further(double width, Covering& covering);
   void look_for_fewer(double width, Covering& covering);
   void look_for_narrower(std::uint64_t count, CountSearch& search);
-  bool grow_for_count(std::uint64_t count, double outside_width, double slab);
+  bool grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess);
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.
   bool is_convex() const {

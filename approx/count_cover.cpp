@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint64_t kWorthGrowing = 250'000, kMostWorthGrowing = 1'000'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
+/// One in so many is grown beyond that for slabs as thin as they are thought to become.
+constexpr std::uint64_t kFewMore = 8;
 /// Part of the width that points left out may be outside without growth going on to kMostWorthGrowing.
 constexpr double kNearSlab = 0.75;
 /// The same where slabs turned out narrower than growth was meant for.
@@ -228,20 +230,25 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
   for (int step = 0; step < kProbesWider && can_go_on(); ++step, width /= kProbeStep) probe(width, kHarder);
 }
 
-/// Growth for so many facets that need slabs of this width. True when it has added a vertex.
-bool Approximation::grow_for_count(std::uint64_t count, double outside_width, double slab) {
+/// Growth for so many facets. True when it has added a vertex.
+bool Approximation::grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess) {
   const std::uint64_t most = std::max(kWorthGrowing, kSimplicesPerFacet * count);
   const std::uint64_t insertions = growth_.work().counters.insertions;
   const auto has_paused = [&](std::uint64_t enough, double height) {
     return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
   };
+  const auto are_far = [&](double slab) { return growth_.furthest_height() > kNearSlab * slab; };
   bool is_paused = !growth_.is_limited() && has_paused(lengths_.outside_width > 0.0 ? 0 : most, HUGE_VAL);
-  for (std::uint64_t enough = most; is_paused && enough < kMostWorthGrowing &&
-                                    growth_.furthest_height() > kNearSlab * slab && !growth_.is_late();) {
+  if (is_paused && are_far(guess.slab) && !growth_.is_late())
+    is_paused = has_paused(most + most / kFewMore, HUGE_VAL);
+  const double slab = is_thorough() ? guess.slab : guess.coarse;
+  for (std::uint64_t enough = most;
+       is_paused && enough < kMostWorthGrowing && are_far(slab) && !growth_.is_late();) {
     enough += kWorthGrowing / 4;
     is_paused = has_paused(enough, HUGE_VAL);
   }
-  if (is_paused) has_paused(most, slab);  // what is further outside makes facets wider, whatever the slabs
+  // What is further outside makes facets wider, whatever the slabs.
+  if (is_paused) has_paused(most, guess.coarse);
   locate_left_out(outside_width);
   return growth_.work().counters.insertions > insertions;
 }
@@ -254,17 +261,16 @@ bool Approximation::is_coarse_for(double slab, double outside_width) {
   return height > kTooNearSlab * slab && live_count() < kMostWorthGrowing;
 }
 
-/// What so many facets may be as wide as, from a coarse hull; 0 where that was not found out. Slabs of the
-/// coarse one hold the points left out as well: those of the hull that is wanted are thinner by about their
-/// height.
-double Approximation::guess_width(std::uint64_t count, CountSearch& search) {
+/// From a coarse hull. Its slabs hold the points left out as well: those of the hull that is wanted are
+/// thinner by about their height.
+Approximation::SlabGuess Approximation::guess_slab(std::uint64_t count, CountSearch& search) {
   const std::uint64_t rows = std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count);
-  if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return 0.0;
+  if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return {};
   make_space(false);
   const double start = std::max(0.1 * lengths_.largest_extent, 1.1 * growth_.furthest_height());
-  if (cover_count(count, kPlain, start, kRoughly, search).planes.empty()) return start;
-  const double slab = hull_.chosen.slab_width;
-  return std::max(slab - growth_.furthest_height(), kLeastOfGuess * slab);
+  if (cover_count(count, kPlain, start, kRoughly, search).planes.empty()) return {start, start};
+  const double coarse = hull_.chosen.slab_width;
+  return {coarse, std::max(coarse - growth_.furthest_height(), kLeastOfGuess * coarse)};
 }
 
 // A simplex with a point left out too far above it is too wide alone, whatever the slabs are: such points are
@@ -274,10 +280,13 @@ FacetClusters Approximation::run_count() {
   const bool is_given = lengths_.outside_width > 0.0;
   CoverEffort effort = kPlain;
   CountSearch search;
-  double width = is_given ? 0.0 : guess_width(count, search);
-  double outside_width = is_given ? lengths_.outside_width : kShareForGrowth * width;
-  if (width == 0.0) width = std::max(0.1 * lengths_.largest_extent, 2.0 * outside_width);
-  grow_for_count(count, outside_width, width);
+  SlabGuess guess = is_given ? SlabGuess{} : guess_slab(count, search);
+  double outside_width =
+      is_given ? lengths_.outside_width : kShareForGrowth * (is_thorough() ? guess.slab : guess.coarse);
+  if (guess.coarse == 0.0)
+    guess.coarse = guess.slab = std::max(0.1 * lengths_.largest_extent, 2.0 * outside_width);
+  double width = guess.slab;
+  grow_for_count(count, outside_width, guess);
   if (outside_width == 0.0 && growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
       count_exact_facets(growth_.work(), growth_.coordinates()) <= count)
     return FacetClusters{};       // the exact hull it is
@@ -310,7 +319,7 @@ FacetClusters Approximation::run_count() {
     }
     if (is_coarse || (may_grow && !offenders.above_simplices.empty())) {
       growth_.put_back(offenders.above_simplices);
-      if (grow_for_count(count, outside_width, slab)) {
+      if (grow_for_count(count, outside_width, {slab, slab})) {
         search.narrowest = Covering{};  // rows are others now
         is_settled = false;
       }
