@@ -3,10 +3,12 @@
 #include "approx/facet_balance.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "approx/cluster_merge.h"
@@ -68,6 +70,37 @@ TEST(FacetBalanceLaw, JoinedFacetsGoOnTurning) {
   EXPECT_LT(widest_of(sphere, balance.covering()), widest);
   for (std::size_t row = 0; row < start.size(); ++row)
     EXPECT_EQ(balance.covering().facet_of[row] == kNone, start[row] == kNone) << row;
+}
+
+// Several threads look at pairs before their turn has come, and list parts side by side.
+TEST(FacetBalanceLaw, JoinsAndTurnsAreTheSameForAnyNumberOfThreads) {
+  const GrownSphere sphere("400 s D5 t1", 400);
+  SlabCover cover(sphere.work.complex, *sphere.space, true);
+  const Covering start = cover.cover(0.1, CoverEffort{.final_fit_steps = 0});
+  for (const double widest : {0.11, 0.2}) {
+    const auto joined_by = [&](int threads) {
+      FacetBalance balance(sphere.work.complex, *sphere.space, true, start);
+      tbb::task_arena arena(threads);
+      arena.execute([&] {
+        Covering joined = start;
+        merge_clusters(
+            sphere.work.complex, *sphere.space,
+            MergeRule{.max_cosine = -1.0, .width_cap = widest, .least_facets = sphere.work.rank + 1}, joined);
+        balance.set_joined(std::move(joined));
+        for (int turn = 0; turn < 3; ++turn) balance.turn();
+      });
+      return balance.covering();
+    };
+    const Covering alone = joined_by(1);
+    EXPECT_LT(alone.planes.size(), start.planes.size());
+    for (const int threads : {2, 4}) {
+      const Covering together = joined_by(threads);
+      EXPECT_TRUE(together.facet_of == alone.facet_of) << threads;
+      ASSERT_EQ(together.planes.size(), alone.planes.size()) << threads;
+      for (std::size_t facet = 0; facet < alone.planes.size(); ++facet)
+        EXPECT_TRUE(together.planes[facet].normal == alone.planes[facet].normal) << facet;
+    }
+  }
 }
 
 // Only these facets are looked at: a part that is cut off of another stays.
