@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -44,8 +45,8 @@ double depth_below(const SimplicialComplex& complex, const WidthSpace& space,
 /// Finds the connected parts of some facets, one after the other. One thread's.
 class PartFinder {
  public:
-  /// is_met: per row of the complex, 0 for those of the facets to come; by several finders at a time, since
-  /// each touches rows of its own facets only.
+  /// is_met: per row of the complex, 0 for those of the facets to come. Several finders may share it: what
+  /// each reads of rows of other facets than its own counts for nothing.
   PartFinder(const SimplicialComplex& complex, const Covering& covering, std::vector<std::uint8_t>& is_met)
       : complex_(complex), covering_(covering), is_met_(is_met) {}
 
@@ -56,7 +57,7 @@ class PartFinder {
     if (met_.size() == members.size()) return;
     std::vector<std::size_t> begin{0, met_.size()};  // of the parts
     for (const std::uint32_t row : members) {
-      if (is_met_[row] != 0) continue;
+      if (is_met(row)) continue;
       flood(row, facet);
       begin.push_back(met_.size());
     }
@@ -78,7 +79,7 @@ class PartFinder {
     constexpr std::size_t kRowsAhead = 4;
     std::size_t next = met_.size();
     met_.push_back(start);
-    is_met_[start] = 1;
+    meet(start);
     for (; next < met_.size(); ++next) {
       prefetch(complex_.neighbours(SimplexId{met_[std::min(next + kRowsAhead, met_.size() - 1)]}).data(),
                complex_.rank);
@@ -87,11 +88,18 @@ class PartFinder {
       for (const SimplexId neighbour : complex_.neighbours(SimplexId{met_[next]})) {
         open[count] = neighbour.value;
         count += static_cast<std::size_t>(covering_.facet_of[neighbour.value] == facet) &
-                 static_cast<std::size_t>(is_met_[neighbour.value] == 0);
+                 static_cast<std::size_t>(!is_met(neighbour.value));
       }
-      for (std::size_t i = 0; i < count; ++i) is_met_[open[i]] = 1;
+      for (std::size_t i = 0; i < count; ++i) meet(open[i]);
       met_.insert(met_.end(), open.begin(), open.begin() + count);
     }
+  }
+
+  bool is_met(std::uint32_t row) const {
+    return std::atomic_ref<std::uint8_t>(is_met_[row]).load(std::memory_order_relaxed) != 0;
+  }
+  void meet(std::uint32_t row) {
+    std::atomic_ref<std::uint8_t>(is_met_[row]).store(1, std::memory_order_relaxed);
   }
 
   const SimplicialComplex& complex_;
