@@ -215,7 +215,7 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, bool 
     find = [this](const BlockWork& also) { return find_determinants(also); };
   std::optional<DualFacets> facets =
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
-  if (!facets || !facets->is_listed()) return facets;
+  if (!facets || !facets->may_join()) return facets;
   const std::size_t simplices = facets->begin.back();
   std::size_t most = std::max<std::size_t>(1, simplices / (kPartOfMean * facets->count()));
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.

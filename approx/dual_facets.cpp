@@ -38,8 +38,9 @@ double PlaneTops::height_of_left_out() const {
   return height;
 }
 
-void DualFacets::number_members() {
+std::vector<std::uint32_t> DualFacets::facet_of_rows() const {
   constexpr std::size_t kFacetsInBlock = 1 << 12, kAskedBefore = 16;
+  std::vector<std::uint32_t> facet_of(complex->row_count, kNone);
   for_each_block(count(), kFacetsInBlock, [&](std::size_t first, std::size_t last) {
     for (std::size_t facet = first; facet < last; ++facet) {
       for (std::size_t i = begin[facet]; i < begin[facet + 1]; ++i) {
@@ -49,13 +50,14 @@ void DualFacets::number_members() {
       }
     }
   });
+  return facet_of;
 }
 
 Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   constexpr std::size_t kFacetsAtATime = 64, kSimplicesAhead = 8;
   const SimplicialComplex& complex = *facets.complex;
   Covering covering;
-  covering.facet_of = facets.facet_of;
+  covering.facet_of = facets.facet_of_rows();
   covering.planes.resize(facets.count());
   const FacetMembers members(covering);
   struct MeasureScratch {
@@ -96,25 +98,31 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
 
 FacetClusters clusters_of(DualFacets facets) {
   FacetClusters clusters;
-  clusters.cluster_of = std::move(facets.facet_of);
-  std::vector<std::uint32_t> cluster(facets.count(), 0);  // simplices first, then which cluster
-  for (const std::uint32_t facet : clusters.cluster_of)
-    if (facet != kNone) ++cluster[facet];
+  const auto is_alone = [&](std::size_t facet) {
+    return facets.size(facet) == 1 && facets.own_plane[facet] == kNone;
+  };
+  std::uint32_t alone = 0;
+  for (std::size_t facet = 0; facet < facets.count(); ++facet) alone += is_alone(facet) ? 1u : 0u;
+  clusters.simplices.resize(facets.begin.back());
+  clusters.begin.reserve(facets.count() - alone + 1);
+  std::uint32_t next_alone = 0, next = alone;
   for (std::size_t facet = 0; facet < facets.count(); ++facet) {
-    const bool is_cluster = cluster[facet] > 1 || facets.own_plane[facet] != kNone;
-    cluster[facet] = is_cluster ? clusters.count : kNone;
+    if (is_alone(facet)) {
+      clusters.simplices[next_alone++] = SimplexId{facets.seeds[facet]};
+      continue;
+    }
+    clusters.begin.push_back(next);
     // No cluster has a larger number than its facet.
     facets.seeds[clusters.count] = facets.seeds[facet];
-    facets.own_plane[clusters.count] = facets.own_plane[facet];
-    clusters.count += is_cluster ? 1u : 0u;
+    facets.own_plane[clusters.count++] = facets.own_plane[facet];
+    for (const std::uint32_t row : facets.members_of(facet)) clusters.simplices[next++] = SimplexId{row};
   }
+  clusters.begin.push_back(next);
   facets.seeds.resize(clusters.count);
   facets.own_plane.resize(clusters.count);
   clusters.seeds = std::move(facets.seeds);
   clusters.own_plane = std::move(facets.own_plane);
   clusters.planes = std::move(facets.own_planes);
-  for (std::uint32_t& facet : clusters.cluster_of)
-    if (facet != kNone) facet = cluster[facet];
   return clusters;
 }
 

@@ -20,11 +20,12 @@
 
 namespace ndhull {
 
-/// Facets of simplices. The plane of a facet is that of its seed, or one of its own.
+/// Facets as lists of simplices. The plane of a facet is that of its seed, or one of its own.
 struct DualFacets {
   const SimplicialComplex* complex = nullptr;
-  std::vector<std::uint32_t> facet_of;   ///< per row of the complex; kNone: a free row
   SimplexMarks marks;                    ///< of each row; taken: in a facet, or a free row
+  HugeArray<std::uint32_t> members;      ///< rows of the complex, facet by facet, the seed first
+  std::vector<std::uint32_t> begin;      ///< of each facet in `members`, and the end
   std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
   std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
   std::vector<double> own_planes;        ///< planes x rank
@@ -34,9 +35,8 @@ struct DualFacets {
   /// direction, a point of the simplex would be as deep below it as the centre.
   bool are_far_from_centre = true;
 
-  // What joining facets has to know; tops and lengths are known afterwards too. Not listed: empty.
-  HugeArray<std::uint32_t> members;  ///< rows of the complex, facet by facet, the seed first
-  std::vector<std::uint32_t> begin;  ///< of each facet in `members`, and the end
+  // What joining facets has to know; tops and lengths are known afterwards too. Of thin slabs, which are not
+  // joined, empty.
   /// Of facets of several simplices the different vertices, facet by facet; of others none.
   std::vector<PointId> vertices;
   std::vector<std::uint32_t> vertex_begin;  ///< of each facet in `vertices`, and the end
@@ -44,13 +44,13 @@ struct DualFacets {
   std::vector<float> lengths;  ///< per facet: |R a|, one over the plane's distance from the centre
 
   std::size_t count() const { return seeds.size(); }
-  bool is_listed() const { return !begin.empty(); }
+  bool may_join() const { return !vertex_begin.empty(); }
   std::size_t size(std::size_t facet) const { return begin[facet + 1] - begin[facet]; }
   std::span<const std::uint32_t> members_of(std::size_t facet) const {
     return {members.data() + begin[facet], size(facet)};
   }
-  /// Fills facet_of from the lists. Cost  a write anywhere in memory for each, by all threads.
-  void number_members();
+  /// Per row of the complex; kNone: a free row. Cost  a write anywhere in memory for each, by all threads.
+  std::vector<std::uint32_t> facet_of_rows() const;
   std::span<const double> plane(std::size_t facet) const {
     if (own_plane[facet] == kNone) return complex->plane(SimplexId{seeds[facet]});
     return {own_planes.data() + own_plane[facet] * complex->rank, complex->rank};

@@ -132,6 +132,27 @@ void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places, 
   }
 }
 
+/// The same of clusters that are listed, in their order.
+void take_lists(FacetClusters& clusters, FacetLayout& layout) {
+  constexpr std::size_t kFacetsInBlock = 1 << 12, kAskedBefore = 16;
+  layout.simplices = std::move(clusters.simplices);
+  layout.merged_begin = std::move(clusters.begin);
+  clusters.begin.clear();
+  layout.facet_of_others.resize(layout.simplices.size());
+  FacetId* const facet_of = layout.facet_of_others.data();
+  for_each_block(layout.facets, kFacetsInBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = first; facet < last; ++facet) {
+      const auto id = FacetId{static_cast<std::uint32_t>(facet)};
+      for (const SimplexId& simplex : layout.simplices_of(id)) {
+        const SimplexId* const later = &simplex + kAskedBefore;
+        prefetch(facet_of +
+                 (later < layout.simplices.data() + layout.simplices.size() ? *later : simplex).value);
+        facet_of[simplex.value] = id;
+      }
+    }
+  });
+}
+
 /// Sums over the simplices of each merged facet: determinants, those times the planes, and areas.
 struct MergedSums {
   std::vector<double> determinants, area_vectors, surface;
@@ -174,13 +195,15 @@ MergedSums sum_merged(const SimplicialComplex& complex, std::span<const double> 
 
 /// No row moves: facets get planes of their own, here those of [begin, end). Only those of simplicial ones
 /// look at lists.
+/// `cluster_at`: of each merged facet.
+template <class ClusterAt>
 void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& clusters,
-                       const ClusterPlaces& places, std::size_t begin, std::size_t end, FacetLayout& layout) {
+                       const ClusterAt& cluster_at, std::size_t begin, std::size_t end, FacetLayout& layout) {
   constexpr std::size_t kPlanesInBlock = 4096, kAhead = 16;  // they are anywhere in memory
   const std::size_t rank = complex.rank;
   const auto plane_of = [&](std::size_t facet) {
     if (facet < layout.simplicial) return complex.plane(layout.simplices[facet]).data();
-    return clusters.plane_of(complex, places.cluster_at[facet - layout.simplicial]);
+    return clusters.plane_of(complex, cluster_at(facet - layout.simplicial));
   };
   for_each_block(end - begin, kPlanesInBlock, [&](std::size_t first, std::size_t last) {
     for (std::size_t facet = begin + first; facet < begin + last; ++facet) {
@@ -199,16 +222,30 @@ std::vector<double> FacetClusters::planes_of(const SimplicialComplex& complex) c
   return all;
 }
 
+void FacetClusters::number_rows(std::size_t row_count) {
+  cluster_of.assign(row_count, kNone);
+  for (std::uint32_t cluster = 0; cluster < count; ++cluster)
+    for (std::size_t i = begin[cluster]; i < begin[cluster + 1]; ++i)
+      cluster_of[simplices[i].value] = cluster;
+  simplices = {};
+  begin = {};
+}
+
 void FacetClusters::move_rows(std::span<const RowMove> moves, std::size_t row_count) {
-  if (cluster_of.empty()) return;
-  for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
-  cluster_of.resize(row_count);
-  for (std::uint32_t& seed : seeds) {
-    if (seed < row_count) continue;
+  if (count == 0) return;
+  const auto move = [&](std::uint32_t& row) {
+    if (row < row_count) return;
     // The last rows go first.
-    const auto is_later = [](const RowMove& move, std::uint32_t row) { return move.from > row; };
-    seed = std::lower_bound(moves.begin(), moves.end(), seed, is_later)->to;
+    const auto is_later = [](const RowMove& one, std::uint32_t from) { return one.from > from; };
+    row = std::lower_bound(moves.begin(), moves.end(), row, is_later)->to;
+  };
+  if (are_listed()) {
+    for (SimplexId& simplex : simplices) move(simplex.value);
+  } else {
+    for (const RowMove& one : moves) cluster_of[one.to] = cluster_of[one.from];
+    cluster_of.resize(row_count);
   }
+  for (std::uint32_t& seed : seeds) move(seed);
 }
 
 ScaledFactor scale_factor(std::span<const double> gradient_factor) {
@@ -229,26 +266,36 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   return layout;
 }
 
-FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
+FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters& clusters,
                     std::span<const double> gradient_factor) {
   if (clusters.count == 0) return simplicial_layout(complex);
   const std::size_t rank = complex.rank;
-  const ClusterPlaces places = find_places(clusters);
+  if (clusters.are_listed() && 2 * clusters.begin.front() > complex.row_count)
+    clusters.number_rows(complex.row_count);
+  const bool takes_lists = clusters.are_listed();
+  const ClusterPlaces places = takes_lists ? ClusterPlaces() : find_places(clusters);
   const ScaledFactor scaled = scale_factor(gradient_factor);
   FacetLayout layout;
-  layout.simplicial = complex.row_count - places.merged_rows;
+  layout.simplicial = takes_lists ? clusters.begin.front() : complex.row_count - places.merged_rows;
   layout.facets = layout.simplicial + clusters.count;
   layout.surface_exponent = scaled.exponent;
-  if (places.merged_rows >= layout.simplicial) {
+  if (2 * layout.simplicial <= complex.row_count) {
     layout.gradient_factor = scaled.factor;
     layout.planes = HugeArray<double>(layout.facets * rank);
+    const auto cluster_at = [&](std::size_t merged) {
+      return takes_lists ? static_cast<std::uint32_t>(merged) : places.cluster_at[merged];
+    };
     do_beside(
         [&] {
-          list_simplices(
-              clusters, places, [](std::uint32_t row) { return row; }, layout);
+          if (takes_lists) {
+            take_lists(clusters, layout);
+          } else {
+            list_simplices(
+                clusters, places, [](std::uint32_t row) { return row; }, layout);
+          }
         },
-        [&] { take_facet_planes(complex, clusters, places, layout.simplicial, layout.facets, layout); });
-    take_facet_planes(complex, clusters, places, 0, layout.simplicial, layout);
+        [&] { take_facet_planes(complex, clusters, cluster_at, layout.simplicial, layout.facets, layout); });
+    take_facet_planes(complex, clusters, cluster_at, 0, layout.simplicial, layout);
     return layout;
   }
   const RowKinds kinds = find_kinds(complex, clusters);

@@ -12,10 +12,14 @@
 
 namespace ndhull {
 
-/// Facets of more than one simplex, as merging finds them.
+/// Facets of more than one simplex, as merging finds them. Each row of the complex says in which it is, or
+/// they list their rows.
 struct FacetClusters {
   std::vector<std::uint32_t> cluster_of;  ///< per row of the complex; FacetId::kNone: a facet of its own
   std::uint32_t count = 0;
+  /// All live rows of the complex: those that are facets of their own, then those of each cluster.
+  std::vector<SimplexId> simplices;
+  std::vector<std::uint32_t> begin;  ///< of each cluster in `simplices`, and the end; empty: not listed
   /// Rows x rank, dual planes in the frame: one a cluster, or as `own_plane` says.
   std::vector<double> planes;
   /// Per cluster: the row of `planes` that is its plane; FacetId::kNone: that of the simplex seeds[cluster]
@@ -27,6 +31,9 @@ struct FacetClusters {
     return own == FacetId::kNone ? complex.plane(SimplexId{seeds[cluster]}).data()
                                  : planes.data() + std::size_t{own} * complex.rank;
   }
+  bool are_listed() const { return !begin.empty(); }
+  /// Instead of lists.
+  void number_rows(std::size_t row_count);
   /// All planes, count x rank.
   std::vector<double> planes_of(const SimplicialComplex& complex) const;
   /// Those of the simplices too, which may be solved again.
@@ -43,7 +50,7 @@ struct FacetClusters {
 ///   [0, regular)            facet f is simplex f, and so are its neighbours
 ///   [regular, simplicial)   facet f is one simplex, simplices[f]; some neighbour is a merged facet
 ///   [simplicial, facets)    merged facets: facet simplicial + m is the rows simplices[merged_begin[m]] up
-///                           to, not including, simplices[merged_begin[m + 1]], ascending
+///                           to, not including, simplices[merged_begin[m + 1]]
 /// Either facets of one simplex are the rows with their numbers (in_place = simplicial), or rows stand
 /// anywhere and none is known by its number (in_place = regular = 0).
 struct FacetLayout {
@@ -52,7 +59,7 @@ struct FacetLayout {
   std::size_t simplicial = 0;
   std::size_t facets = 0;
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
-  std::vector<SimplexId> simplices;         ///< facet by facet: 0, 1, 2 .. simplicial - 1, then the merged
+  std::vector<SimplexId> simplices;         ///< facet by facet: those of one simplex, then the merged
   std::vector<FacetId> facet_of_others;     ///< of simplex in_place + i
   /// Where no row moves: facets x rank, the planes of the facets. The complex' planes and the determinants
   /// are then the simplices', and sums over these are made where they are wanted (later_areas.h). Else empty.
@@ -99,10 +106,11 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex);
 /// facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
-///         above plane a in input units.
-/// Order   merged facets stand in the order of their first simplex, as the rows were; rows that can stay do.
+///         above plane a in input units. clusters: lists are lost.
+/// Order   as clusters list them where no row moves; else merged facets stand in the order of their first
+///         simplex, as the rows were, their simplices ascending. Rows that can stay do.
 /// Cost    O(rows rank).
-FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, const FacetClusters& clusters,
+FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters& clusters,
                     std::span<const double> gradient_factor);
 
 }  // namespace ndhull

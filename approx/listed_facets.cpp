@@ -72,7 +72,7 @@ class ListedFacets {
 
   /// Can one thread keep which points each facet has near, while rows pass by in the order of memory?
   bool is_better_by_rows() const {
-    constexpr std::size_t kNear = std::size_t{8} << 20, kRowBytesPerByte = 4, kMostWords = 64;
+    constexpr std::size_t kNear = std::size_t{1} << 20, kRowBytesPerByte = 4, kMostWords = 64;
     const std::size_t bytes = 8 * layout_.facets * words_;
     return layout_.in_place == 0 && vertices_ == nullptr && !has_more_threads() && words_ <= kMostWords &&
            bytes <= kNear && kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;

@@ -41,6 +41,7 @@ class SegmentMerger {
         length_of_(factor),
         width_(width),
         table_(facets),
+        facet_of_(facets.facet_of_rows()),
         facets_(facets.count()),
         planes_(facets.count() * D),
         next_(facets.count(), kNone),
@@ -119,7 +120,7 @@ class SegmentMerger {
   /// Below this nothing is foreseen: a team takes some 0.1 ms to begin.
   static constexpr std::size_t kFewFacets = 512, kMostThreads = 8;
   static constexpr std::size_t kForeseenInBlock = 16, kBlocksOfThread = 4, kHostsAhead = 4;
-  static constexpr std::size_t kRowsInBlock = 1 << 14, kFacetsInBlock = 1 << 12;
+  static constexpr std::size_t kFacetsInBlock = 1 << 12;
 
   /// Have no others joined it that it is not any more?
   bool is_small(std::uint32_t facet, std::size_t most_simplices) const {
@@ -181,7 +182,7 @@ class SegmentMerger {
     if (place + 1 == facets.size()) return;
     for (const std::uint32_t row : table_.members_of(facets[place + 1])) {
       for (std::size_t k = 0; k < D; ++k) {
-        prefetch(&table_.facet_of[row_of(row)[D + k]]);
+        prefetch(&facet_of_[row_of(row)[D + k]]);
         table_.marks.ask_for(row_of(row)[D + k]);
       }
     }
@@ -231,7 +232,7 @@ class SegmentMerger {
       const std::uint32_t* row = row_of(simplex);
       const SimplexMarks::Mark mark = table_.marks[simplex];
       for (std::size_t k = 0; k < D; ++k) {
-        const std::uint32_t other = table_.facet_of[row[D + k]];
+        const std::uint32_t other = facet_of_[row[D + k]];
         if (other == facet) continue;
         search.met.push_back(other);
         const double height = dot(plane, table_.marks.vertex_across(mark, row[k], table_.marks[row[D + k]]));
@@ -313,7 +314,7 @@ class SegmentMerger {
   void join(std::uint32_t facet, const Host& found) {
     const auto [host, place] = found;
     if (host == kNone) return;
-    for_members(facet, [&](std::uint32_t row) { table_.facet_of[row] = host; });
+    for_members(facet, [&](std::uint32_t row) { facet_of_[row] = host; });
     double* const between = planes_.data() + std::size_t{host} * D;
     mix_planes(plane_of(facet), between, place, between);
     if (table_.own_plane[host] == kNone) {
@@ -344,26 +345,24 @@ class SegmentMerger {
     last_[host] = last_[facet];
   }
 
-  /// Leaves the facets that have not joined another, and no lists of what is in them.
+  /// Leaves the facets that have not joined another, with all that have joined them.
   void drop_joined() {
-    std::uint32_t used = 0;
-    std::vector<std::uint32_t> number_of(table_.count());
+    HugeArray<std::uint32_t> members(table_.begin.back());
+    std::vector<std::uint32_t> begin;
+    begin.reserve(table_.begin.size());
+    std::uint32_t used = 0, count = 0;
     for (std::uint32_t facet = 0; facet < table_.count(); ++facet) {
       if (facets_[facet].simplices == 0) continue;
-      number_of[facet] = used;
+      begin.push_back(count);
+      for_members(facet, [&](std::uint32_t row) { members[count++] = row; });
       table_.seeds[used] = table_.seeds[facet];
       table_.own_plane[used] = table_.own_plane[facet];
       table_.tops[used] = table_.tops[facet];
       table_.lengths[used++] = table_.lengths[facet];
     }
-    for_each_block(table_.facet_of.size(), kRowsInBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        std::uint32_t& facet = table_.facet_of[row];
-        if (facet != kNone) facet = number_of[facet];
-      }
-    });
-    table_.members = HugeArray<std::uint32_t>();
-    table_.begin = {};
+    begin.push_back(count);
+    table_.members = std::move(members);
+    table_.begin = std::move(begin);
     table_.vertex_begin = {};
     table_.seeds.resize(used);
     table_.own_plane.resize(used);
@@ -376,6 +375,7 @@ class SegmentMerger {
   GradientLength<D> length_of_;
   double width_;
   DualFacets& table_;
+  std::vector<std::uint32_t> facet_of_;  // per row of the complex: as joined
   std::vector<Facet> facets_;
   HugeArray<double> planes_;                // facets x D
   std::vector<std::uint32_t> next_, last_;  // per facet: chains of those that have joined it

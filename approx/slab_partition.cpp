@@ -64,7 +64,6 @@ class Partitioner {
         classes_(complex, [this](std::size_t row) { return length_sq_of(row); }),
         dots_(space.point_count()) {
     facets_.complex = &complex;
-    facets_.facet_of.resize(complex.row_count);
     facets_.marks = SimplexMarks(complex.row_count, space.point_count());
     for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
     members_ = HugeArray<std::uint32_t>(live_count_ + D);
@@ -74,7 +73,6 @@ class Partitioner {
   void prepare(std::size_t begin, std::size_t end, bool walks) {
     for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
       make_mark(row);
-      if (!is_live(row)) facets_.facet_of[row] = kNone;
       if (walks) classes_.put(row, length_sq_of(row));
     }
   }
@@ -126,7 +124,6 @@ class Partitioner {
     facets_.begin.push_back(static_cast<std::uint32_t>(count_));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(vertex_count_));
     facets_.members = std::move(members_);
-    facets_.number_members();
     facets_.vertices.resize(vertex_count_);
     return std::move(facets_);
   }

@@ -16,11 +16,13 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "approx/product_bits_kernel.h"
 #include "approx/seed_planes.h"
+#include "approx/star_passes.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
@@ -48,7 +50,12 @@ class ThinPartitioner {
         row_count_(static_cast<std::uint32_t>(complex_.row_count)),
         facets_(std::move(facets)),
         fitting_(row_count_),
-        dots_(space.point_count()) {}
+        point_count_(space.point_count()) {
+    facets_.members = HugeArray<std::uint32_t>(row_count_ + D);
+    // Address space, of which no more is used than there are facets.
+    for (std::vector<std::uint32_t>* const per_facet : {&facets_.seeds, &facets_.begin, &facets_.own_plane})
+      per_facet->reserve(row_count_ + 1);
+  }
 
   DualFacets run() {
     find_stars();
@@ -56,6 +63,7 @@ class ThinPartitioner {
               [&] { determinants_ = find_determinants_([](std::size_t, std::size_t) {}); });
     take_pairs();
     take_others();
+    facets_.begin.push_back(static_cast<std::uint32_t>(member_count_));
     // Planes between two others, and raised ones, are no nearer.
     facets_.are_far_from_centre = facets_.are_far_from_centre && are_far_from_centre_;
     return std::move(facets_);
@@ -64,12 +72,6 @@ class ThinPartitioner {
  private:
   /// Neighbours in a star from which on it is worth looking for more behind them.
   static constexpr std::size_t kGrowsFrom = D / 2;
-
-  /// A product of the present slab's plane with a point.
-  struct Dot {
-    double value;
-    std::uint32_t slab = kNone;  // that it was computed for
-  };
 
   bool is_taken(std::uint32_t row) const { return facets_.marks.is_taken(row); }
   const std::uint32_t* row_of(std::uint32_t row) const {
@@ -89,7 +91,7 @@ class ThinPartitioner {
   void find_stars() {
     // Of more points than simplices a second table would take memory that no limit knows of.
     std::optional<FloatPoints> points;
-    if (dots_.size() <= row_count_) points.emplace(D, std::span(coordinates_, dots_.size() * D));
+    if (point_count_ <= row_count_) points.emplace(D, std::span(coordinates_, point_count_ * D));
     for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin; first < end; first += kStarsAtATime)
         find_some_stars(points ? &*points : nullptr, static_cast<std::uint32_t>(first),
@@ -134,63 +136,61 @@ class ThinPartitioner {
   /// Largest first, as in a greedy cover. All sizes, one by one, would save 1.5 % of the facets in 8-d and
   /// take a fifth more time.
   void take_all_stars() {
-    constexpr unsigned kRank = D;
-    take_stars((3 * kRank + 3) / 4);
-    for (unsigned least = (kRank + 1) / 2; least > 0; --least) take_stars(least);
+    passes_.list(fitting_);
+    for (unsigned pass = passes_.kCount - 1; pass > 0; --pass)
+      for (const std::span<const std::uint32_t> rows : {passes_.listed(pass), passes_.again(pass)})
+        take_stars(rows, passes_.takes(pass));
   }
 
-  /// Takes stars with so many neighbours that are in no other, as the rows stand. Stars that others have
-  /// taken too much of come again with a smaller `least`.
-  void take_stars(unsigned least) {
+  /// Takes those stars with so many neighbours that are in no other. Others come again in a later pass.
+  void take_stars(std::span<const std::uint32_t> rows, unsigned least) {
     for_each_open(
-        0, row_count_, [&](std::uint32_t row) { return count_bits(fitting_[row]) >= least; },
+        0, rows.size(), [&](std::size_t i) { return rows[i]; }, [](std::uint32_t) {},
         [&](std::uint32_t row) {
           if (least >= kGrowsFrom) prefetch(plane_of(row), D);
         },
         [&](std::uint32_t row) { take_star(row, least); });
   }
 
-  /// Calls visit for the rows of [begin, end) that are in no facet and that is_wanted says yes of, ascending,
-  /// and `fetch` for each some time before.
-  template <class Wanted, class Fetch, class Visit>
-  void for_each_open(std::size_t begin, std::size_t end, const Wanted& is_wanted, const Fetch& fetch,
-                     const Visit& visit) {
+  /// Calls visit for those of the rows row_at(begin) up to row_at(end - 1) that are in no facet, in this
+  /// order; `ask` for each some time before, and `fetch` between.
+  template <class RowAt, class Ask, class Fetch, class Visit>
+  void for_each_open(std::size_t begin, std::size_t end, const RowAt& row_at, const Ask& ask,
+                     const Fetch& fetch, const Visit& visit) {
     constexpr std::size_t kAtATime = 1024;
     std::array<std::uint32_t, kAtATime + 1> rows;
     for (std::size_t first = begin; first < end; first += kAtATime) {
-      const auto last = static_cast<std::uint32_t>(std::min(first + kAtATime, end));
+      const std::size_t last = std::min(first + kAtATime, end);
       std::size_t count = 0;
-      for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) {
-        rows[count] = row;
-        count += (is_taken(row) ? 0u : 1u) & (is_wanted(row) ? 1u : 0u);  // both: no branch
+      for (std::size_t i = first; i < last; ++i) {
+        rows[count] = static_cast<std::uint32_t>(row_at(i));
+        count += is_taken(rows[count]) ? 0u : 1u;  // no branch
       }
-      for (std::size_t i = 0; i < count + 2 * kRowsAhead; ++i) {
+      for (std::size_t i = 0; i < count + 3 * kRowsAhead; ++i) {
         if (i < count) prefetch(row_of(rows[i]), 2 * D);
-        if (i >= kRowsAhead && i < count + kRowsAhead) fetch(rows[i - kRowsAhead]);
-        if (i >= 2 * kRowsAhead && !is_taken(rows[i - 2 * kRowsAhead])) visit(rows[i - 2 * kRowsAhead]);
+        if (i >= kRowsAhead && i < count + kRowsAhead) ask(rows[i - kRowsAhead]);
+        if (i >= 2 * kRowsAhead && i < count + 2 * kRowsAhead) fetch(rows[i - 2 * kRowsAhead]);
+        if (i >= 3 * kRowsAhead && !is_taken(rows[i - 3 * kRowsAhead])) visit(rows[i - 3 * kRowsAhead]);
       }
     }
   }
 
   void take_star(std::uint32_t row, unsigned least) {
     keep_open(row, fitting_[row]);
-    if (count_bits(fitting_[row]) < least) return;
     std::optional<SeedPlane<D>> own;  // far away in memory: not read where bits say all
-    if (planes_.may_have_points_above()) {
+    if (planes_.may_have_points_above() && count_bits(fitting_[row]) >= least) {
       own = planes_.own(row);
       planes_.raise_top(*own);
       keep_above(row, *own, fitting_[row]);
-      if (count_bits(fitting_[row]) < least) return;
     }
-    const std::uint32_t facet = add_facet(row);
-    const bool grows = count_bits(fitting_[row]) >= kGrowsFrom;
-    members_.clear();
-    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1) {
-      const std::uint32_t other = row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))];
-      take(other, facet);
-      if (grows) add_member(other);
-    }
-    if (grows) grow(row, own ? *own : planes_.own(row), facet);
+    if (count_bits(fitting_[row]) < least) return passes_.put_back(row, fitting_[row]);
+    add_facet(row);
+    const std::size_t first = member_count_;
+    for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1)
+      take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))]);
+    if (member_count_ - first < kGrowsFrom) return;
+    for (std::size_t i = first; i < member_count_; ++i) prefetch(row_of(facets_.members[i]), 2 * D);
+    grow(first, own ? *own : planes_.own(row));
   }
 
   /// Of these neighbours those that are in no facet.
@@ -213,39 +213,41 @@ class ThinPartitioner {
     bits = static_cast<NeighbourBits>(above);
   }
 
-  void take(std::uint32_t row, std::uint32_t facet) {
+  /// Into the last facet.
+  void take(std::uint32_t row) {
     facets_.marks.set_taken(row, true);
-    facets_.facet_of[row] = facet;
-  }
-  /// Neighbours of a member are looked at later.
-  void add_member(std::uint32_t row) {
-    members_.push_back(row);
-    prefetch(row_of(row), 2 * D);
+    facets_.members[member_count_++] = row;
   }
 
-  /// Takes what is in the slab behind the neighbours that were taken from a seed.
-  void grow(std::uint32_t seed, const SeedPlane<D>& own, std::uint32_t facet) {
-    for (std::size_t k = 0; k < D; ++k) dots_[row_of(seed)[k]] = {HUGE_VAL, facet};
-    for (std::size_t next = 0; next < members_.size(); ++next) {
-      const std::uint32_t* const later =
-          row_of(members_[std::min(next + kMembersAhead, members_.size() - 1)]) + D;
-      for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(later[k]);
-      const std::uint32_t* const row = row_of(members_[next]);
-      const SimplexMarks::Mark mark = facets_.marks[members_[next]];
+  /// Takes what is in the slab behind the neighbours that were taken from a seed, `next` being the first.
+  /// What a neighbour turns out to be cannot be foreseen: each is written behind what was taken, and stays
+  /// there or not.
+  void grow(std::size_t next, const SeedPlane<D>& own) {
+    SimplexMarks& marks = facets_.marks;
+    std::uint32_t* const members = facets_.members.data();
+    for (; next < member_count_; ++next) {
+      if (next + kMembersAhead < member_count_) {
+        const std::uint32_t* const later = row_of(members[next + kMembersAhead]) + D;
+        for (std::size_t k = 0; k < D; ++k) marks.ask_for(later[k]);
+      }
+      const std::uint32_t* const row = row_of(members[next]);
+      const SimplexMarks::Mark mark = marks[members[next]];
+      SimplexMarks::Mark open_marks[D];
       std::uint32_t open[D], across[D];
       std::size_t count = 0;
       for (std::size_t k = 0; k < D; ++k) {
-        const SimplexMarks::Mark neighbour = facets_.marks[row[D + k]];
+        const SimplexMarks::Mark neighbour = marks[row[D + k]];
         open[count] = row[D + k];
-        across[count] = facets_.marks.vertex_across(mark, row[k], neighbour);
+        open_marks[count] = neighbour;
+        across[count] = marks.vertex_across(mark, row[k], neighbour);
         count += SimplexMarks::is_taken(neighbour) ? 0u : 1u;
       }
       for (std::size_t i = 0; i < count; ++i) {
-        Dot& known = dots_[across[i]];
-        if (known.slab != facet) known = {dot(own.plane.data(), across[i]), facet};
-        if (known.value < own.least) continue;
-        take(open[i], facet);
-        add_member(open[i]);
+        const bool is_in = dot(own.plane.data(), across[i]) >= own.least;
+        members[member_count_] = open[i];
+        prefetch(row_of(is_in ? open[i] : members[next]), 2 * D);
+        marks.put(open[i], static_cast<std::uint32_t>(open_marks[i]), is_in);
+        member_count_ += is_in ? 1u : 0u;
       }
     }
   }
@@ -257,19 +259,22 @@ class ThinPartitioner {
       list_open_partners(row);
       ask_for_partners(row);
     };
+    const auto ask_for_marks = [&](std::uint32_t row) {
+      for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(row_of(row)[D + k]);
+    };
     const auto ask = [&](std::uint32_t row) { ask_for_partners(row); };
     const auto take_first = [&](std::uint32_t row) {
       for_fitting_partners(row, [&](std::size_t k, const SeedPlane<D>& plane) {
-        take(row_of(row)[D + k], add_facet(row, &plane.plane));
+        add_facet(row, &plane.plane);
+        take(row_of(row)[D + k]);
         return false;
       });
     };
-    const auto all = [](std::uint32_t) { return true; };
-    const auto has_any = [&](std::uint32_t row) { return fitting_[row] != 0; };
+    const auto each = [](std::size_t i) { return i; };
     if (!has_more_threads() || planes_.may_have_points_above())
-      return for_each_open(0, row_count_, all, list, take_first);
+      return for_each_open(0, row_count_, each, ask_for_marks, list, take_first);
     for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
-      for_each_open(begin, end, all, list, [&](std::uint32_t row) {
+      for_each_open(begin, end, each, ask_for_marks, list, [&](std::uint32_t row) {
         unsigned fitting = 0;
         for_fitting_partners(row, [&](std::size_t k, const SeedPlane<D>&) {
           fitting |= 1u << k;
@@ -278,7 +283,11 @@ class ThinPartitioner {
         fitting_[row] = static_cast<NeighbourBits>(fitting);
       });
     });
-    for_each_open(0, row_count_, has_any, ask, take_first);
+    std::vector<std::uint32_t> has_any;
+    for (std::uint32_t row = 0; row < row_count_; ++row)
+      if (!is_taken(row) && fitting_[row] != 0) has_any.push_back(row);
+    for_each_open(
+        0, has_any.size(), [&](std::size_t i) { return has_any[i]; }, ask_for_marks, ask, take_first);
   }
 
   /// Neighbours that come later in memory and are in no facet. (Those before were asked.)
@@ -350,15 +359,14 @@ class ThinPartitioner {
     }
   }
 
-  /// None: the plane is the seed's.
-  std::uint32_t add_facet(std::uint32_t seed, const std::array<double, D>* plane = nullptr) {
-    const auto facet = static_cast<std::uint32_t>(facets_.count());
+  /// No plane: the seed's own.
+  void add_facet(std::uint32_t seed, const std::array<double, D>* plane = nullptr) {
     facets_.seeds.push_back(seed);
+    facets_.begin.push_back(static_cast<std::uint32_t>(member_count_));
     facets_.own_plane.push_back(plane == nullptr ? kNone
                                                  : static_cast<std::uint32_t>(facets_.own_planes.size() / D));
     if (plane != nullptr) facets_.own_planes.insert(facets_.own_planes.end(), plane->begin(), plane->end());
-    take(seed, facet);
-    return facet;
+    take(seed);
   }
 
   const SimplicialComplex& complex_;
@@ -369,10 +377,11 @@ class ThinPartitioner {
   double width_;
   std::uint32_t row_count_;
   DualFacets facets_;
-  std::vector<NeighbourBits> fitting_;            // per row: of the neighbours that its slab would take
-  std::vector<Dot> dots_;                         // per point
+  std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
+  std::size_t point_count_;
   std::atomic<bool> are_far_from_centre_ = true;  // the simplices' planes
-  std::vector<std::uint32_t> members_;            // of the facet that is being grown, but for its seed
+  StarPasses<D> passes_;
+  std::size_t member_count_ = 0;  // of those listed in facets_
 };
 
 }  // namespace

@@ -115,6 +115,9 @@ void listed_dots_of(std::size_t dimension, std::span<const double> normals, std:
     const double* normal = normals.data() + row * width;
     const std::span<const std::uint32_t> list = lists.row(row);
     dots.resize(std::max(dots.size(), list.size() + kTogether));
+    double smallest[kTogether], largest[kTogether];
+    std::fill_n(smallest, kTogether, HUGE_VAL);
+    std::fill_n(largest, kTogether, -HUGE_VAL);
     for (std::size_t i = 0; i < list.size(); i += kTogether) {
       const double* point[kTogether];
       double dot[kTogether] = {};
@@ -122,18 +125,17 @@ void listed_dots_of(std::size_t dimension, std::span<const double> normals, std:
         point[j] = points.data() + std::size_t{list[std::min(i + j, list.size() - 1)]} * width;
       for (std::size_t k = 0; k < width; ++k)
         for (std::size_t j = 0; j < kTogether; ++j) dot[j] = __builtin_fma(normal[k], point[j][k], dot[j]);
-      for (std::size_t j = 0; j < kTogether; ++j) dots[i + j] = dot[j];
+      for (std::size_t j = 0; j < kTogether; ++j) {
+        dots[i + j] = dot[j];
+        smallest[j] = std::min(smallest[j], dot[j]);
+        largest[j] = std::max(largest[j], dot[j]);
+      }
     }
-    double smallest = HUGE_VAL, largest = -HUGE_VAL;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      smallest = std::min(smallest, dots[i]);
-      largest = std::max(largest, dots[i]);
-    }
-    const double least = largest - kCloseProducts * std::abs(largest);
+    low[row] = *std::min_element(smallest, smallest + kTogether);
+    high[row] = *std::max_element(largest, largest + kTogether);
+    const double least = high[row] - kCloseProducts * std::abs(high[row]);
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < list.size(); ++i) count += dots[i] >= least ? 1u : 0u;
-    low[row] = smallest;
-    high[row] = largest;
     close[row] = count;
   }
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ struct Clustered {
                                also(0, complex.row_count);
                                return std::span<const double>(determinants);
                              });
-    facet_of = facets->facet_of;
+    facet_of = facets->facet_of_rows();
     for (std::size_t facet = 0; facet < facets->count(); ++facet)
       planes.emplace_back(facets->plane(facet).begin(), facets->plane(facet).end());
     clusters = clusters_of(std::move(*facets));
@@ -53,7 +54,10 @@ struct Clustered {
 
 TEST(FacetClusters, AreTheFacetsOfSeveralSimplicesAndThoseWithOwnPlanes) {
   for (const double width : {0.01, 0.05}) {
-    const Clustered found(width);
+    Clustered found(width);
+    const std::vector<std::uint32_t> listed = found.clusters.begin;
+    ASSERT_EQ(listed.size(), found.clusters.count + 1);
+    found.clusters.number_rows(found.facet_of.size());
     std::map<std::uint32_t, std::uint32_t> cluster_of_facet, size;
     for (const std::uint32_t facet : found.facet_of)
       if (facet != kNone) ++size[facet];
@@ -62,6 +66,7 @@ TEST(FacetClusters, AreTheFacetsOfSeveralSimplicesAndThoseWithOwnPlanes) {
       EXPECT_EQ(facet != kNone && size[facet] > 1, cluster != kNone);
       if (cluster == kNone) continue;
       EXPECT_EQ(cluster_of_facet.emplace(facet, cluster).first->second, cluster);
+      EXPECT_EQ(listed[cluster + 1] - listed[cluster], size[facet]);
       EXPECT_EQ(found.plane_of(cluster), found.planes[facet]);
     }
     EXPECT_EQ(cluster_of_facet.size(), found.clusters.count);
@@ -70,22 +75,66 @@ TEST(FacetClusters, AreTheFacetsOfSeveralSimplicesAndThoseWithOwnPlanes) {
   }
 }
 
-TEST(FacetClusters, KeepTheirPlanesWhenRowsMove) {
-  Clustered found(0.01);
-  SimplicialComplex& complex = found.sphere.work.complex;
-  const std::vector<std::vector<double>> before = found.planes_of_all();
-  std::vector<std::uint32_t> cluster_of = found.clusters.cluster_of;
-  const std::vector<RowMove> moves = compact(complex);
-  ASSERT_FALSE(moves.empty());
-  found.clusters.move_rows(moves, complex.row_count);
-  for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
-  cluster_of.resize(complex.row_count);
-  EXPECT_EQ(found.clusters.cluster_of, cluster_of);
-  EXPECT_EQ(found.planes_of_all(), before);
-  std::size_t moved_seeds = 0;
-  for (const std::uint32_t seed : found.clusters.seeds)
-    for (const RowMove& move : moves) moved_seeds += seed == move.to ? 1u : 0u;
-  EXPECT_GT(moved_seeds, 0u);
+TEST(FacetClusters, KeepTheirPlanesAndSimplicesWhenRowsMove) {
+  Clustered listed(0.01), numbered(0.01);
+  numbered.clusters.number_rows(numbered.sphere.work.complex.row_count);
+  std::vector<std::uint32_t> cluster_of = numbered.clusters.cluster_of;
+  const std::vector<std::vector<double>> before = listed.planes_of_all();
+  for (Clustered* const found : {&listed, &numbered}) {
+    SimplicialComplex& complex = found->sphere.work.complex;
+    const std::vector<RowMove> moves = compact(complex);
+    ASSERT_FALSE(moves.empty());
+    found->clusters.move_rows(moves, complex.row_count);
+    EXPECT_EQ(found->planes_of_all(), before);
+    std::size_t moved_seeds = 0;
+    for (const std::uint32_t seed : found->clusters.seeds)
+      for (const RowMove& move : moves) moved_seeds += seed == move.to ? 1u : 0u;
+    EXPECT_GT(moved_seeds, 0u);
+    if (found == &listed) {
+      EXPECT_EQ(listed.clusters.simplices.size(), complex.row_count);
+      listed.clusters.number_rows(complex.row_count);
+      for (const RowMove& move : moves) cluster_of[move.to] = cluster_of[move.from];
+      cluster_of.resize(complex.row_count);
+    }
+    EXPECT_EQ(found->clusters.cluster_of, cluster_of);
+  }
+}
+
+/// Where no row moves, 0.05, and where rows do.
+TEST(FacetClusters, AreLaidOutAsTheSameFacetsWhetherListedOrNumbered) {
+  using Facet = std::pair<std::set<std::uint32_t>, std::vector<double>>;
+  for (const double width : {0.0002, 0.05}) {
+    std::vector<std::set<Facet>> laid_out;
+    for (const bool is_listed : {true, false}) {
+      Clustered found(width);
+      SimplicialComplex& complex = found.sphere.work.complex;
+      const std::vector<RowMove> moves = compact(complex);
+      found.clusters.move_rows(moves, complex.row_count);
+      if (!is_listed) found.clusters.number_rows(complex.row_count);
+      std::vector<double> determinants(complex.row_count, 1.0), factor(complex.rank * complex.rank, 0.0);
+      ASSERT_GT(found.clusters.count, 0u);
+      const FacetLayout layout = lay_out(complex, determinants, found.clusters, factor);
+      EXPECT_EQ(layout.planes.data() != nullptr, width == 0.05);
+      laid_out.emplace_back();
+      for (std::uint32_t facet = 0; facet < layout.facets; ++facet) {
+        const std::span<const SimplexId> simplices = layout.simplices_of(FacetId{facet});
+        EXPECT_EQ(simplices.size() == 1, facet < layout.simplicial);
+        Facet next;
+        for (const SimplexId simplex : simplices) {
+          EXPECT_EQ(layout.facet_of(simplex), FacetId{facet});
+          std::set<std::uint32_t> vertices;
+          for (const PointId id : complex.vertices(simplex)) vertices.insert(id.value);
+          EXPECT_EQ(vertices.size(), complex.rank);
+          next.first.merge(vertices);
+        }
+        const double* const plane = layout.plane_of(complex, FacetId{facet});
+        next.second.assign(plane, plane + complex.rank);
+        laid_out.back().insert(std::move(next));
+      }
+      EXPECT_EQ(laid_out.back().size(), layout.facets);
+    }
+    EXPECT_TRUE(laid_out[0] == laid_out[1]) << width;
+  }
 }
 
 TEST(FacetClusters, KeepTheirPlanesWhenSimplicesAreSolvedAgain) {

@@ -17,16 +17,18 @@ namespace ndhull {
 inline std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sphere,
                                                           const DualFacets& facets) {
   std::vector<std::vector<std::uint32_t>> members(facets.count());
+  const std::vector<std::uint32_t> facet_of = facets.facet_of_rows();
   for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
-    const std::uint32_t facet = facets.facet_of[row];
+    const std::uint32_t facet = facet_of[row];
     EXPECT_EQ(facet != kNone, sphere.is_live(row));
     if (facet < members.size()) members[facet].push_back(row);
   }
   for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
+    EXPECT_EQ(facets.members_of(facet).front(), facets.seeds[facet]);
     std::vector<std::uint32_t> met{facets.seeds[facet]};
     for (std::size_t i = 0; i < met.size(); ++i) {
       for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {
-        if (facets.facet_of[neighbour.value] == facet &&
+        if (facet_of[neighbour.value] == facet &&
             std::find(met.begin(), met.end(), neighbour.value) == met.end())
           met.push_back(neighbour.value);
       }

@@ -41,7 +41,8 @@ struct LaidOut {
     std::optional<DualFacets> facets =
         partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint,
                              0.15, FindDeterminants());
-    layout = lay_out(complex, determinants, clusters_of(std::move(*facets)), factor);
+    FacetClusters clusters = clusters_of(std::move(*facets));
+    layout = lay_out(complex, determinants, clusters, factor);
     points.dimension = rank;
     points.rows.assign(sphere.coordinates.begin(), sphere.coordinates.end() - 8);
     points.row_of_point.resize(sphere.work.point_count);

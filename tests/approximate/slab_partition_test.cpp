@@ -144,7 +144,7 @@ TEST(SegmentMergeLaw, JoinedFacetsAreSlabsToo) {
       for (const std::size_t most : {1u, 3u, 50u}) {
         DualFacets facets = *slabs.partition(width);
         slabs.join(width, most, facets);
-        EXPECT_FALSE(facets.is_listed());
+        EXPECT_FALSE(facets.may_join());
         expect_slabs(sphere, facets, width);
         EXPECT_LE(facets.count(), last) << words << ", width " << width << ", most " << most;
         EXPECT_LT(facets.count(), disjoint) << words << ", width " << width << ", most " << most;
@@ -170,7 +170,7 @@ TEST(SegmentMergeLaw, JoinsAreTheSameForAnyNumberOfThreads) {
       });
     }
     for (const DualFacets& facets : joined) {
-      EXPECT_EQ(facets.facet_of, joined.front().facet_of);
+      EXPECT_EQ(facets.facet_of_rows(), joined.front().facet_of_rows());
       EXPECT_EQ(facets.own_plane, joined.front().own_plane);
       EXPECT_EQ(facets.own_planes, joined.front().own_planes);
       EXPECT_EQ(facets.tops, joined.front().tops);

@@ -34,13 +34,11 @@ struct ThinSlabs {
                   const std::vector<double>& coordinates, std::size_t marked_points) const {
     DualFacets open;
     open.complex = &sphere.work.complex;
-    open.facet_of.resize(sphere.work.complex.row_count);
     open.marks = SimplexMarks(sphere.work.complex.row_count, marked_points);
     for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
       std::uint32_t mix = 0;
       for (const PointId id : sphere.work.complex.vertices(SimplexId{row})) mix ^= id.value;
       open.marks.put(row, mix, !sphere.is_live(row));
-      if (!sphere.is_live(row)) open.facet_of[row] = kNone;
     }
     return partition_into_thin_slabs(
         space, coordinates.data(), factor, above, width,
@@ -105,7 +103,7 @@ TEST(ThinSlabsLaw, AreTheSameForAnyNumberOfThreads) {
       arena.execute([&] { found.push_back(slabs.find(width)); });
     }
     for (const DualFacets& facets : found) {
-      EXPECT_EQ(facets.facet_of, found.front().facet_of);
+      EXPECT_EQ(facets.facet_of_rows(), found.front().facet_of_rows());
       EXPECT_EQ(facets.own_plane, found.front().own_plane);
       EXPECT_EQ(facets.own_planes, found.front().own_planes);
     }
@@ -137,8 +135,7 @@ TEST(ThinSlabsLaw, AreTheSameWithMarksForManyPoints) {
   const ThinSlabs slabs("120 s D7 t3");
   const DualFacets few = slabs.find(0.02), many = slabs.find(0.02, 40'000);
   EXPECT_EQ(few.seeds, many.seeds);
-  for (std::uint32_t row = 0; row < slabs.sphere.work.complex.row_count; ++row)
-    EXPECT_EQ(few.facet_of[row], many.facet_of[row]);
+  EXPECT_EQ(few.facet_of_rows(), many.facet_of_rows());
 }
 
 /// More points than simplices: no table of them in single precision is made.
@@ -161,6 +158,7 @@ TEST(ThinSlabsLaw, SlabsOfOneSimplexHaveNoNeighbourToPairWith) {
   const double width = 0.02;
   const DualFacets facets = slabs.find(width);
   const std::vector<std::vector<std::uint32_t>> members = members_of(slabs.sphere, facets);
+  const std::vector<std::uint32_t> facet_of = facets.facet_of_rows();
   const SimplicialComplex& complex = slabs.sphere.work.complex;
   std::size_t alone = 0, pairs = 0;
   for (const auto& rows : members) {
@@ -168,7 +166,7 @@ TEST(ThinSlabsLaw, SlabsOfOneSimplexHaveNoNeighbourToPairWith) {
     if (rows.size() != 1) continue;
     ++alone;
     for (const SimplexId other : complex.neighbours(SimplexId{rows[0]})) {
-      if (members[facets.facet_of[other.value]].size() != 1) continue;
+      if (members[facet_of[other.value]].size() != 1) continue;
       // All planes through their ridge, a hundredth of the way apart.
       const auto a = complex.plane(SimplexId{rows[0]}), b = complex.plane(other);
       double narrowest = HUGE_VAL;
@@ -250,16 +248,16 @@ TEST(ThinSlabsExample, ThePartitionAsksForThemWhereSlabsHoldFew) {
   for (const int threads : {1, 2}) {
     asked = 0;
     tbb::task_arena arena(threads);
-    arena.execute([&] { EXPECT_TRUE(partition(0.2)->is_listed()); });
+    arena.execute([&] { EXPECT_TRUE(partition(0.2)->may_join()); });
     EXPECT_EQ(asked, 1) << threads;
     asked = 0;
     arena.execute([&] { EXPECT_EQ(partition(0.01)->count(), thin->count()); });
     EXPECT_EQ(asked, 1) << threads;
   }
-  EXPECT_FALSE(thin->is_listed());
+  EXPECT_FALSE(thin->may_join());
   EXPECT_EQ(thin->count(), slabs.find(0.01).count());
   const std::optional<DualFacets> wide = partition(0.2);
-  EXPECT_TRUE(!wide || wide->is_listed());
+  EXPECT_TRUE(!wide || wide->may_join());
 }
 
 }  // namespace
