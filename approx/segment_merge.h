@@ -10,7 +10,7 @@ namespace ndhull {
 
 /// Facets of up to `most_simplices` simplices join a neighbour where both are less than `width` below one of
 /// the planes between theirs, the last ones first. Neighbours are tried in the order of what the vertices
-/// across the ridges leave of the segment. The facets have no lists afterwards.
+/// across the ridges leave of the segment. Lists of vertices are lost.
 ///
 /// Shapes  coordinates: point_count x rank, in the frame. gradient_factor: rank x rank.
 /// Order   facets stay in theirs.
