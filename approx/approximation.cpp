@@ -195,7 +195,7 @@ std::span<const double> Approximation::find_determinants(const BlockWork& also) 
     for_each_block(complex.row_count, kRowsInBlock, also);
   } else {
     const Clock::time_point start = Clock::now();
-    determinants_ = HugeArray<double>(complex.row_count);
+    determinants_ = HugeArray<double>::to_write(complex.row_count);
     find_outwards(complex, growth_.coordinates(), {determinants_.data(), complex.row_count}, also);
     hull_.statistics.detail_seconds.emplace_back("volumes", seconds_since(start));
   }

@@ -39,7 +39,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       start_(start),
       hull_(hull),
       limits_(options.limits, start, options.accuracy.facets > 0) {
-  coordinates_ = HugeArray<double>(points_.rows * frame_.rank);
+  coordinates_ = HugeArray<double>::to_write(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
   work_.rank = frame_.rank;
   work_.point_count = points_.rows;

@@ -281,7 +281,7 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
   layout.surface_exponent = scaled.exponent;
   if (2 * layout.simplicial <= complex.row_count) {
     layout.gradient_factor = scaled.factor;
-    layout.planes = HugeArray<double>(layout.facets * rank);
+    layout.planes = HugeArray<double>::to_write(layout.facets * rank);
     const auto cluster_at = [&](std::size_t merged) {
       return takes_lists ? static_cast<std::uint32_t>(merged) : places.cluster_at[merged];
     };

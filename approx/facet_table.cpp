@@ -68,7 +68,7 @@ class TableMaker {
       planes_ = std::move(layout.planes);
       simplex_planes_ = std::move(complex.planes);
       simplex_determinants_ = std::move(determinants);
-      table_.offsets = HugeArray<double>(count_);
+      table_.offsets = HugeArray<double>::to_write(count_);
     } else {
       planes_ = std::move(complex.planes);
       determinants.discard_from(count_);
@@ -125,11 +125,11 @@ class TableMaker {
       table_.normals = std::move(planes_);
       table_.normals.discard_from(count_ * dimension_);
     } else {
-      table_.normals = HugeArray<double>(count_ * dimension_);
+      table_.normals = HugeArray<double>::to_write(count_ * dimension_);
     }
-    table_.outer = HugeArray<double>(count_);
-    table_.inner = HugeArray<double>(count_);
-    table_.areas = HugeArray<double>(count_);
+    table_.outer = HugeArray<double>::to_write(count_);
+    table_.inner = HugeArray<double>::to_write(count_);
+    table_.areas = HugeArray<double>::to_write(count_);
     parts_.resize((count_ + kFacetsInBlock - 1) / kFacetsInBlock);
     if (certifies_ && known_.highest.empty() && !searches_many_points())
       groups_.emplace(dimension_, points_.rows, count_ < kFewFacets);

@@ -170,7 +170,7 @@ class HullBuilder {
 
   void find_determinants(std::span<const std::uint8_t> is_shifted) {
     const Clock::time_point start = Clock::now();
-    determinants_ = HugeArray<double>(complex().row_count);
+    determinants_ = HugeArray<double>::to_write(complex().row_count);
     const std::span<double> found(determinants_.data(), complex().row_count);
     const bool keeps_planes = hull_.is_approximate && is_shifted.empty();
     if (keeps_planes) find_outwards(complex(), growth_->coordinates(), found);
@@ -259,7 +259,7 @@ class HullBuilder {
     complex() = SimplicialComplex(rank, found.facets);
     complex().row_count = found.facets;
     std::copy(found.planes.begin(), found.planes.end(), complex().planes.data());
-    determinants_ = HugeArray<double>(found.facets);
+    determinants_ = HugeArray<double>::to_write(found.facets);
     std::copy(found.determinants.begin(), found.determinants.end(), determinants_.data());
     hull_.layout_.facets = found.facets;
     for (std::size_t facet = 0; facet < found.facets; ++facet)
@@ -299,7 +299,7 @@ class HullBuilder {
                                KnownHighest());
     complex() = SimplicialComplex(rank, count);
     complex().row_count = count;
-    determinants_ = HugeArray<double>(count);
+    determinants_ = HugeArray<double>::to_write(count);
     hull_.layout_.area_vectors.resize(count * rank);
     IdRows vertices, points;
     std::vector<std::uint32_t> sizes(count);

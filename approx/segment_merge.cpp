@@ -43,7 +43,7 @@ class SegmentMerger {
         table_(facets),
         facet_of_(facets.facet_of_rows()),
         facets_(facets.count()),
-        planes_(facets.count() * D),
+        planes_(HugeArray<double>::to_write(facets.count() * D)),
         next_(facets.count(), kNone),
         last_(facets.count()),
         listed_(std::move(facets.vertices)),
@@ -347,7 +347,7 @@ class SegmentMerger {
 
   /// Leaves the facets that have not joined another, with all that have joined them.
   void drop_joined() {
-    HugeArray<std::uint32_t> members(table_.begin.back());
+    auto members = HugeArray<std::uint32_t>::to_write(table_.begin.back());
     std::vector<std::uint32_t> begin;
     begin.reserve(table_.begin.size());
     std::uint32_t used = 0, count = 0;

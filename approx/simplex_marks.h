@@ -1,6 +1,7 @@
 // What walks over neighbours read of the simplices that they meet.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -33,12 +34,15 @@ class SimplexMarks {
   static constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 
   SimplexMarks() = default;
+  /// None is taken.
   SimplexMarks(std::size_t rows, std::size_t point_count) {
     if (point_count <= kFewPoints) {
-      short_ = HugeArray<std::int16_t>(rows);
+      short_ = HugeArray<std::int16_t>::to_write(rows);
+      std::fill_n(short_.data(), rows, std::int16_t{0});
       vertex_bits_ = kFewPoints - 1;
     } else {
-      long_ = HugeArray<std::int32_t>(rows);
+      long_ = HugeArray<std::int32_t>::to_write(rows);
+      std::fill_n(long_.data(), rows, 0);
       vertex_bits_ = kMostPoints - 1;
     }
   }

@@ -66,7 +66,7 @@ class Partitioner {
     facets_.complex = &complex;
     facets_.marks = SimplexMarks(complex.row_count, space.point_count());
     for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
-    members_ = HugeArray<std::uint32_t>(live_count_ + D);
+    members_ = HugeArray<std::uint32_t>::to_write(live_count_ + D);
   }
 
   /// To be called for all rows before slabs are found, some at a time, by any thread. `walks`: by walks.

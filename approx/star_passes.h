@@ -27,7 +27,7 @@ class StarPasses {
   void list(std::span<const NeighbourBits> stars) {
     std::array<std::uint32_t, kCount> next{};
     for (const NeighbourBits star : stars) ++next[pass_of(star)];
-    rows_ = HugeArray<std::uint32_t>(stars.size());
+    rows_ = HugeArray<std::uint32_t>::to_write(stars.size());
     std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
     for (std::uint32_t row = 0; row < stars.size(); ++row) rows_[next[pass_of(stars[row])]++] = row;
     end_ = next;

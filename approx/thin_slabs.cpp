@@ -51,7 +51,7 @@ class ThinPartitioner {
         facets_(std::move(facets)),
         fitting_(row_count_),
         point_count_(space.point_count()) {
-    facets_.members = HugeArray<std::uint32_t>(row_count_ + D);
+    facets_.members = HugeArray<std::uint32_t>::to_write(row_count_ + D);
     // Address space, of which no more is used than there are facets.
     for (std::vector<std::uint32_t>* const per_facet : {&facets_.seeds, &facets_.begin, &facets_.own_plane})
       per_facet->reserve(row_count_ + 1);

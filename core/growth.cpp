@@ -1,29 +1,18 @@
 #include "core/growth.h"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "core/block_store.h"
 #include "core/blocks.h"
 #include "core/dense_solve.h"
 #include "core/error.h"
 
 namespace ndhull {
 namespace {
-
-/// [bytes] of address space that the system lets this process have (`ulimit -v`, some batch systems).
-std::size_t address_space() {
-  std::size_t least = SIZE_MAX;
-  for (const auto kind : {RLIMIT_AS, RLIMIT_DATA}) {
-    rlimit limit{};
-    if (getrlimit(kind, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-      least = std::min<std::size_t>(least, limit.rlim_cur);
-  }
-  return least;
-}
 
 /// Rows that are given address space: what would fill twice the machine's memory. Only touched pages count.
 /// Where address space itself is limited, two fifths of it: what follows growth needs as much.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <new>
 
+#include "core/block_store.h"
+
 namespace ndhull {
 namespace {
 
@@ -38,9 +40,17 @@ void* reserve_pages(std::size_t bytes) {
   return reinterpret_cast<void*>(begin);
 }
 
-void release_pages(void* address, std::size_t bytes) { munmap(address, round_up(bytes, kPageBytes)); }
+void* take_pages(std::size_t bytes) {
+  void* const block = take_block(bytes);
+  return block != nullptr ? block : reserve_pages(bytes);
+}
+
+void release_pages(void* address, std::size_t bytes) {
+  if (!give_block(address)) munmap(address, round_up(bytes, kPageBytes));
+}
 
 void discard_pages(void* from, void* to) {
+  if (is_in_store(from)) return;
   const std::size_t begin = round_up(reinterpret_cast<std::uintptr_t>(from), kPageBytes);
   const std::size_t end = reinterpret_cast<std::uintptr_t>(to) / kPageBytes * kPageBytes;
   if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);

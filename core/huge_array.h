@@ -10,15 +10,18 @@ namespace ndhull {
 /// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages.
 /// Throws std::bad_alloc when the address space is refused.
 void* reserve_pages(std::size_t bytes);
-/// Gives back what `reserve_pages` returned.
+/// The same for what will all be written at once: from the store of blocks, if it takes so many bytes. What
+/// is in it may be anything.
+void* take_pages(std::size_t bytes);
+/// Gives back what either of them returned.
 void release_pages(void* address, std::size_t bytes);
-/// Gives the memory of whole pages in [from, to) back to the system; the addresses stay reserved and
-/// read as zero.
+/// Gives the memory of whole pages in [from, to) back to the system, unless it is the store's; the addresses
+/// stay reserved.
 void discard_pages(void* from, void* to);
 
 /// Array of plain records that can grow in place up to the capacity given at the start. Growing costs
 /// nothing but the pages that are touched: references stay valid, peak memory is the final size.
-/// New elements are zero.
+/// New elements are zero, unless it was made to be written at once.
 template <class T>
 class HugeArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -27,6 +30,14 @@ class HugeArray {
   HugeArray() = default;
   explicit HugeArray(std::size_t capacity)
       : data_(static_cast<T*>(reserve_pages(bytes_for(capacity)))), capacity_(capacity) {}
+  /// An array that will not grow, whose elements may be anything until they are written: its memory is the
+  /// one that the table before it had (core/block_store.h).
+  static HugeArray to_write(std::size_t size) {
+    HugeArray array;
+    array.data_ = static_cast<T*>(take_pages(bytes_for(size)));
+    array.capacity_ = size;
+    return array;
+  }
   HugeArray(HugeArray&& other) noexcept { swap(other); }
   HugeArray& operator=(HugeArray&& other) noexcept {
     swap(other);

@@ -119,7 +119,7 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
       4 * planes_kept <= count && planes_kept + rows.size() <= complex.planes.capacity() / rank;
   if (!has_room) {
     complex.planes.discard_from(planes_kept * rank);
-    fresh = HugeArray<std::uint32_t>(rows.size() * width);
+    fresh = HugeArray<std::uint32_t>::to_write(rows.size() * width);
     taken = fresh.data();
   }
   for_each_block(rows.size(), kRowsAtATime, [&](std::size_t begin, std::size_t end) {
