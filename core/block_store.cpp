@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kStoreLine = 64;
 constexpr std::size_t kStorePage = std::size_t{1} << 21;
-constexpr std::size_t kMostAddresses = std::size_t{1} << 36;
+constexpr std::size_t kMostAddresses = std::size_t{1} << 30;
 constexpr std::size_t kMostKept = std::size_t{1} << 26;  // bytes of one free place
 // Less is left at the end of the block before, since a place so small would only be looked at again and
 // again.

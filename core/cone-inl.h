@@ -101,7 +101,7 @@ void Grower<D>::touch_new_rows() {
   const std::size_t needed = books_.row_count + horizon_count_ - reused;
   if (needed <= touched_rows_ || needed * kRowBytes < kSmallHull || !has_team()) return;
   const std::size_t first = std::max(touched_rows_, books_.row_count);
-  const std::size_t last = std::min(needed + kBytesAhead / kRowBytes, work_.complex.state.capacity());
+  const std::size_t last = std::min(needed + kBytesAhead / kRowBytes, rows_with_room());
   // A block is a huge page of either table: both come to new pages at the same time.
   const std::size_t blocks = (kHugePage + (last - first) * kRowBytes - 1) / kHugePage + 1;
   void* const tables[] = {planes_, topology_};
@@ -125,7 +125,7 @@ void Grower<D>::clear_new_rows() {
   const std::size_t needed = books_.row_count + horizon_count_;
   if (needed <= cleared_rows_) return;
   const std::size_t first = std::max(cleared_rows_, books_.row_count);
-  const std::size_t last = std::max(first, std::min(needed + kAhead, row_end()));
+  const std::size_t last = std::max(first, std::min(needed + kAhead, std::min(row_end(), rows_with_room())));
   std::fill(head_ + first, head_ + last, 0u);
   std::fill(marks_.data() + first, marks_.data() + last, std::uint8_t{0});
   for (std::size_t s = 1; s < shares_.size(); ++s)

@@ -133,17 +133,11 @@ class Grower {
       : work_(work),
         region_(region),
         books_(books),
-        planes_(work.complex.planes.data()),
-        topology_(work.complex.topology.data()),
-        state_(work.complex.state.data()),
-        head_(work.complex.outside_head.data()),
         points_(work.points),
-        visible_(work.complex.state.capacity()),
-        visible_gauge_(work.complex.state.capacity()),
-        horizon_(work.complex.state.capacity() * D),
-        new_rows_(work.complex.state.capacity()),
-        threads_(threads),
-        marks_(work.complex.state.capacity()) {}
+        most_rows_(most_rows(D)),
+        threads_(threads) {
+    take_places(0);
+  }
 
   // From how many elements on a loop is shared. Which loops are shared, and in what blocks, changes no
   // result.
@@ -163,6 +157,7 @@ class Grower {
   std::uint8_t duplicate_mark() const { return static_cast<std::uint8_t>(hidden_mark_ + 2); }
   std::uint8_t* share_marks(std::size_t s) { return s == 0 ? marks_.data() : shares_[s].marks.data(); }
   void make_shares();
+  void make_share(std::size_t s, std::size_t kept);
   void mark_found_alone(std::uint8_t* marks);
   void merge_share(std::size_t s);
   void search_wave(const double* apex, double threshold, std::size_t begin, std::size_t end);
@@ -207,6 +202,10 @@ class Grower {
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
   bool room_for_cone();
+  std::size_t rows_for_cone() const;
+  std::size_t rows_with_room() const { return work_.complex.state.capacity(); }
+  void make_place_for(std::size_t rows);
+  void take_places(std::size_t kept);
   std::size_t row_end() const;
   std::size_t live_rows() const { return books_.row_count - books_.free_count; }
   bool cone_is_sphere();
@@ -225,6 +224,7 @@ class Grower {
   void list_apexes(double furthest);
   RegionBorder choose_border(std::uint64_t direction);
   bool part_into_regions(double furthest);
+  std::size_t most_lent_rows() const { return live_rows() / 8; }  // to each region
   void lend_rows();
   void join_regions(double seconds);
   void grow_region();
@@ -235,16 +235,17 @@ class Grower {
   GrowthWork& work_;
   GrowthRegion* const region_;  // null: all of space
   const Books books_;
-  double* planes_;
-  std::uint32_t* topology_;
-  SimplexState* state_;
-  std::uint32_t* head_;
+  double* planes_ = nullptr;
+  std::uint32_t* topology_ = nullptr;
+  SimplexState* state_ = nullptr;
+  std::uint32_t* head_ = nullptr;
   const double* points_;
 
   HugeArray<std::uint32_t> visible_;
   HugeArray<double> visible_gauge_;
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
+  const std::size_t most_rows_;
   std::size_t threads_;
   std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;
@@ -306,6 +307,7 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
     const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
     if (certain) shift = 0.0;
+    make_place_for(rows_for_cone());
     share_searches();
     make_cone(apex_id, shift);
     clock.lap(books_.counters.seconds_cone);
@@ -334,18 +336,6 @@ template <std::size_t D>
 bool Grower<D>::has_team() {
   if (!team_ && threads_ > 1) team_ = std::make_unique<Team>(threads_);
   return team_ != nullptr;
-}
-
-/// From the first large insertion on searches are shared.
-template <std::size_t D>
-void Grower<D>::share_searches() {
-  if (shares_.empty() && horizon_count_ >= kManyRidges && has_team()) make_shares();
-}
-
-template <std::size_t D>
-bool Grower<D>::room_for_cone() {
-  const std::size_t needed = horizon_count_ > books_.free_count ? horizon_count_ - books_.free_count : 0;
-  return books_.row_count + needed <= row_end();
 }
 
 template <std::size_t D>

@@ -10,22 +10,10 @@
 #include "core/blocks.h"
 #include "core/dense_solve.h"
 #include "core/error.h"
+#include "core/staged_table.h"
 
 namespace ndhull {
 namespace {
-
-/// Rows that are given address space: what would fill twice the machine's memory. Only touched pages count.
-/// Where address space itself is limited, two fifths of it: what follows growth needs as much.
-std::size_t row_capacity(std::size_t rank) {
-  const auto machine_bytes =
-      static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const std::size_t row_bytes = 16 * rank;
-  // With lists of visible simplices and of ridges, one for growth and one for each of two threads and
-  // regions.
-  const std::size_t reserved_bytes = row_bytes + 16 + 5 * (12 * rank + 16);
-  constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
-  return std::min({2 * machine_bytes / row_bytes, address_space() / 5 * 2 / reserved_bytes, kMostRows});
-}
 
 /// The dual vertex of the plane through `rank` points, refined once.
 void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, double* plane) {
@@ -147,9 +135,11 @@ void forget_outside(GrowthWork& work) {
 }
 
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first) {
-  const std::size_t capacity = row_capacity(work.rank);
-  work.complex = SimplicialComplex(work.rank, capacity);
-  work.free_rows = HugeArray<std::uint32_t>(capacity);
+  work.complex = SimplicialComplex();
+  work.complex.rank = work.rank;
+  work.free_rows = HugeArray<std::uint32_t>();
+  work.free_count = 0;
+  make_room_for(work, work.rank + 1);
   work.next_outside.assign(work.point_count, 0);
   work.heights.reset(work.point_count);
   SimplicialComplex& complex = work.complex;
@@ -195,6 +185,30 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoint
       }
     }
   }
+}
+
+// What would fill twice the machine's memory. Only touched pages count.
+// Where address space itself is limited, two fifths of it: what follows growth needs as much.
+std::size_t most_rows(std::size_t rank) {
+  const auto machine_bytes =
+      static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t row_bytes = 16 * rank;
+  // With lists of visible simplices and of ridges, one for growth and one for each of two threads and
+  // regions.
+  const std::size_t reserved_bytes = row_bytes + 16 + 5 * (12 * rank + 16);
+  constexpr std::size_t kMostRows = std::size_t{1} << 30;  // the sign bit of a row id marks new simplices
+  return std::min({2 * machine_bytes / row_bytes, address_space() / 5 * 2 / reserved_bytes, kMostRows});
+}
+
+void make_room_for(GrowthWork& work, std::size_t rows) {
+  SimplicialComplex& complex = work.complex;
+  const std::size_t most = most_rows(work.rank);
+  const std::size_t kept = complex.row_count, room = stage_rows(rows, most);
+  move_to_stage(complex.planes, kept, room, work.rank);
+  move_to_stage(complex.topology, kept, room, 2 * work.rank);
+  move_and_clear(complex.state, kept, room);
+  move_and_clear(complex.outside_head, kept, room);
+  move_list(work.free_rows, work.free_count, room, most);
 }
 
 GrownHull take_grown(GrowthWork& work) {

@@ -115,6 +115,12 @@ GrownHull take_grown(GrowthWork& work);
 /// wait, wherever they are, for the caller to place them. No point of the hull was shifted.
 void start_growth(GrowthWork& work, GrownHull grown);
 
+/// Rows that tables of growth can have at most.
+std::size_t most_rows(std::size_t rank);
+
+/// Moves the tables of the complex and the free rows to where there is room for `rows`, at most `most_rows`.
+void make_room_for(GrowthWork& work, std::size_t rows);
+
 /// Adds outside points, the furthest of all first (but see in_regions), until none are left or a limit is
 /// hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
 /// height are left out then: no set has any.

@@ -12,6 +12,7 @@
 #include "core/cone-inl.h"
 #include "core/dimension_switch.h"
 #include "core/grower-inl.h"
+#include "core/grower_tables-inl.h"
 #include "core/match-inl.h"
 #include "core/partition-inl.h"
 #include "core/regions-inl.h"

@@ -3,6 +3,8 @@
 #include <sys/mman.h>
 
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "core/block_store.h"
@@ -12,28 +14,36 @@ namespace {
 
 constexpr std::size_t kPageBytes = 4096;
 constexpr std::size_t kHugePageBytes = std::size_t{1} << 21;
-// The first part of an array is in small pages, so that many small arrays do not each clear a huge one: where
-// the machine is virtual, memory that it has not used for a while costs 2 ms a huge page. A small hull has
-// about 20 arrays.
+constexpr std::size_t kLineBytes = 64;
+// In small pages, unless all of it will soon be written: of twenty tables most hold little, and a huge page
+// for each would be memory that nobody needs.
 constexpr std::size_t kSmallPartBytes = std::size_t{1} << 19;
+static_assert(kLeastPagesBytes == kSmallestBlock);
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
+void* allocate_small(std::size_t bytes) {
+  void* const address = std::aligned_alloc(kLineBytes, round_up(bytes, kLineBytes));
+  if (address == nullptr) throw std::bad_alloc();
+  return address;
+}
+
 }  // namespace
 
-// Placed so that the small part ends where huge pages can begin.
-void* reserve_pages(std::size_t bytes) {
+// Placed so that huge pages can begin where the small part ends.
+void* reserve_pages(std::size_t bytes, std::size_t at_once) {
+  if (bytes < kLeastPagesBytes) return std::memset(allocate_small(bytes), 0, bytes);
   const std::size_t rounded = round_up(bytes, kPageBytes);
-  const bool is_small = rounded <= kSmallPartBytes;
-  const std::size_t mapped = is_small ? rounded : rounded + kHugePageBytes;
-  void* address =
+  const std::size_t small_part = at_once < kSmallPartBytes ? kSmallPartBytes : 0;
+  const bool has_huge = rounded >= small_part + kHugePageBytes;
+  const std::size_t mapped = has_huge ? rounded + kHugePageBytes : rounded;
+  void* const address =
       mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (address == MAP_FAILED) throw std::bad_alloc();
-  if (is_small) return address;
+  if (!has_huge) return address;
   const auto first = reinterpret_cast<std::uintptr_t>(address);
-  const std::uintptr_t huge = round_up(first + kSmallPartBytes, kHugePageBytes);
-  const std::uintptr_t begin = huge - kSmallPartBytes;
-  const std::uintptr_t end = begin + rounded;
+  const std::uintptr_t huge = round_up(first + small_part, kHugePageBytes);
+  const std::uintptr_t begin = huge - small_part, end = begin + rounded;
   if (begin > first) munmap(address, begin - first);
   if (first + mapped > end) munmap(reinterpret_cast<void*>(end), first + mapped - end);
   madvise(reinterpret_cast<void*>(huge), end - huge, MADV_HUGEPAGE);  // advice: failure costs speed only
@@ -41,12 +51,17 @@ void* reserve_pages(std::size_t bytes) {
 }
 
 void* take_pages(std::size_t bytes) {
+  if (bytes < kLeastPagesBytes) return allocate_small(bytes);
   void* const block = take_block(bytes);
-  return block != nullptr ? block : reserve_pages(bytes);
+  return block != nullptr ? block : reserve_pages(bytes, bytes);
 }
 
 void release_pages(void* address, std::size_t bytes) {
-  if (!give_block(address)) munmap(address, round_up(bytes, kPageBytes));
+  if (bytes < kLeastPagesBytes) {
+    std::free(address);
+  } else if (!give_block(address)) {
+    munmap(address, round_up(bytes, kPageBytes));
+  }
 }
 
 void discard_pages(void* from, void* to) {

@@ -7,9 +7,13 @@
 
 namespace ndhull {
 
-/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages.
+/// Fewer bytes are the allocator's.
+inline constexpr std::size_t kLeastPagesBytes = std::size_t{1} << 16;
+
+/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages. It reads as zero.
+/// `at_once`: so many bytes will soon be written; where they are few the first part is in small pages.
 /// Throws std::bad_alloc when the address space is refused.
-void* reserve_pages(std::size_t bytes);
+void* reserve_pages(std::size_t bytes, std::size_t at_once);
 /// The same for what will all be written at once: from the store of blocks, if it takes so many bytes. What
 /// is in it may be anything.
 void* take_pages(std::size_t bytes);
@@ -28,8 +32,10 @@ class HugeArray {
 
  public:
   HugeArray() = default;
-  explicit HugeArray(std::size_t capacity)
-      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity)))), capacity_(capacity) {}
+  /// `at_once`: so many elements will soon be written.
+  explicit HugeArray(std::size_t capacity, std::size_t at_once = 0)
+      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T)))),
+        capacity_(capacity) {}
   /// An array that will not grow, whose elements may be anything until they are written: its memory is the
   /// one that the table before it had (core/block_store.h).
   static HugeArray to_write(std::size_t size) {
@@ -55,7 +61,8 @@ class HugeArray {
 
   /// Returns the memory behind elements [count, capacity) to the system.
   void discard_from(std::size_t count) {
-    if (data_ != nullptr) discard_pages(data_ + count, data_ + capacity_);
+    if (data_ != nullptr && bytes_for(capacity_) >= kLeastPagesBytes)
+      discard_pages(data_ + count, data_ + capacity_);
   }
 
  private:

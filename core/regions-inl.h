@@ -19,6 +19,7 @@
 #include <numeric>
 
 #include "core/grower-inl.h"
+#include "core/staged_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -37,13 +38,6 @@ Grower<D>::~Grower() = default;
 template <std::size_t D>
 HWY_INLINE bool Grower<D>::is_in_region(const double* record) const {
   return region_value(region_->border, record) > region_->border.least;
-}
-
-template <std::size_t D>
-std::size_t Grower<D>::row_end() const {
-  if (region_ != nullptr) return region_->row_end;
-  const std::size_t capacity = work_.complex.state.capacity(), most = work_.options.most_table_rows;
-  return most != 0 ? std::min(most, capacity) : capacity;
 }
 
 template <std::size_t D>
@@ -83,7 +77,8 @@ bool Grower<D>::may_grow_in_regions() {
 template <std::size_t D>
 bool Grower<D>::grow_in_regions(double furthest) {
   constexpr std::uint64_t kFewInsertions = 8, kAlone = 8;
-  if (regions_.empty()) make_regions();
+  make_place_for(std::min(books_.row_count + kRegions * most_lent_rows(), row_end()));
+  if (in_regions_.empty()) make_regions();
   if (!part_into_regions(furthest)) {
     parting_.next_at = books_.counters.insertions + kAlone;
     return false;
@@ -109,7 +104,7 @@ template <std::size_t D>
 void Grower<D>::make_regions() {
   regions_.resize(kRegions);
   for (GrowthRegion& region : regions_) {
-    region.free_rows = HugeArray<std::uint32_t>(work_.complex.state.capacity());
+    move_list(region.free_rows, 0, rows_with_room(), most_rows_);
     in_regions_.emplace_back(new Grower(
         work_, 1, &region,
         {region.free_rows, region.free_count, region.row_count, region.points_outside, region.counters}));
@@ -207,7 +202,7 @@ void Grower<D>::lend_rows() {
   constexpr double kPartAdded = 0.5;
   const double listed = static_cast<double>(regions_[0].apexes.size());
   const auto most = static_cast<std::size_t>(
-      std::min(parting_.ridges * std::max(16.0, kPartAdded * listed), static_cast<double>(live_rows() / 8)));
+      std::min(parting_.ridges * std::max(16.0, kPartAdded * listed), static_cast<double>(most_lent_rows())));
   const std::size_t half = books_.free_count / kRegions;
   const std::size_t unused = std::min(most - std::min(most, half), (row_end() - books_.row_count) / kRegions);
   const std::uint32_t* from = books_.free_rows.data();

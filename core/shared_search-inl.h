@@ -19,23 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-/// Shares of a wave: one for each thread, with the marks of all searches so far.
-template <std::size_t D>
-void Grower<D>::make_shares() {
-  const std::size_t capacity = work_.complex.state.capacity();
-  shares_.resize(team_->threads());
-  for (std::size_t s = 0; s < shares_.size(); ++s) {
-    SearchShare& share = shares_[s];
-    if (s > 0) share.marks = HugeArray<std::uint8_t>(capacity);
-    share.visible = HugeArray<std::uint32_t>(capacity);
-    share.gauge = HugeArray<double>(capacity);
-    share.horizon = HugeArray<HorizonRidge>(capacity * D);
-    if (s < 2) continue;
-    share.kept_visible = HugeArray<std::uint32_t>(capacity);
-    share.kept_gauge = HugeArray<double>(capacity);
-  }
-}
-
 /// Marks what was found without the other shares since they last had all marks.
 template <std::size_t D>
 void Grower<D>::mark_found_alone(std::uint8_t* marks) {

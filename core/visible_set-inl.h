@@ -125,7 +125,7 @@ std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t
   FirstMet<D> lists[2];
   std::size_t tested = begin, listed = begin, turn = 0;
   const bool is_open = result.visible == visible_.data();
-  const std::size_t most = shares_.empty() ? visible_.capacity() : kManyVisible;
+  const std::size_t most = shares_.empty() ? SIZE_MAX : kManyVisible;
   for (;;) {
     std::size_t limit = end;
     if (is_open) limit = result.visible_count - listed < most ? result.visible_count : listed;
