@@ -99,7 +99,7 @@ void Grower<D>::touch_new_rows() {
   constexpr std::size_t kSmallHull = std::size_t{1} << 18;
   const std::size_t reused = std::min(books_.free_count, horizon_count_);
   const std::size_t needed = books_.row_count + horizon_count_ - reused;
-  if (needed <= touched_rows_ || needed * kRowBytes < kSmallHull || !has_team()) return;
+  if (!is_shared_ || needed <= touched_rows_ || needed * kRowBytes < kSmallHull || !has_team()) return;
   const std::size_t first = std::max(touched_rows_, books_.row_count);
   const std::size_t last = std::min(needed + kBytesAhead / kRowBytes, rows_with_room());
   // A block is a huge page of either table: both come to new pages at the same time.
@@ -182,7 +182,7 @@ template <std::size_t D>
 void Grower<D>::commit() {
   const auto find = [&](std::size_t begin, std::size_t end) { find_hidden_slots(begin, end); };
   const auto join = [&](std::size_t begin, std::size_t end) { join_hidden(begin, end); };
-  if (team_ && new_count_ >= kManyRidges) {
+  if (shares_loops() && new_count_ >= kManyRidges) {
     for_many(new_count_, find);
     for_many(new_count_, join);
     return;

@@ -31,6 +31,7 @@
 #include "core/growth.h"
 #include "core/growth_region.h"
 #include "core/phase_clock.h"
+#include "core/sharing_choice.h"
 #include "core/team.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -189,7 +190,7 @@ class Grower {
   /// Runs work(begin, end) on all of [0, count), shared when they are many.
   template <class Work>
   void for_many(std::size_t count, const Work& work) {
-    if (team_ && count >= kManyRidges) {
+    if (shares_loops() && count >= kManyRidges) {
       const std::size_t shares = 4 * team_->threads();
       team_->for_each_block(count, std::max(kRidgesInBlock, (count + shares - 1) / shares), work);
     } else {
@@ -197,9 +198,11 @@ class Grower {
     }
   }
   bool has_team();
+  bool shares_loops() const { return is_shared_ && team_; }
   void share_searches();
   enum class Outcome { kAdded, kRejected, kNoRoom, kPastLimit };
   Outcome insert(std::uint32_t apex, std::uint32_t seed);
+  Outcome insert_timed(std::uint32_t apex, std::uint32_t seed);
   double draw_shift(std::uint32_t apex_id, unsigned attempt) const;
   bool room_for_cone();
   std::size_t rows_for_cone() const;
@@ -249,6 +252,8 @@ class Grower {
   std::size_t threads_;
   std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;
+  SharingChoice sharing_;
+  bool is_shared_ = true;                                // the loops of this insertion, where they are long
   std::size_t touched_rows_ = 0;                         // rows that have memory, as far as is known
   std::size_t cleared_rows_ = 0;                         // rows whose heads and marks are 0
   std::size_t shared_visible_ = 0, shared_horizon_ = 0;  // found when all shares last had the same marks
@@ -331,13 +336,6 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
   return Outcome::kRejected;
 }
 
-/// Starts the other threads, if there are any and they are not there yet.
-template <std::size_t D>
-bool Grower<D>::has_team() {
-  if (!team_ && threads_ > 1) team_ = std::make_unique<Team>(threads_);
-  return team_ != nullptr;
-}
-
 template <std::size_t D>
 bool Grower<D>::is_to_pause(double furthest) const {
   const GrowthOptions& options = work_.options;
@@ -364,7 +362,7 @@ GrowthStop Grower<D>::run() {
     }
     if (may_grow_in_regions() && grow_in_regions(furthest.height)) continue;
     const std::uint32_t apex_id = head_[row] - 1;
-    switch (insert(apex_id, row)) {
+    switch (insert_timed(apex_id, row)) {
       case Outcome::kAdded: break;
       case Outcome::kNoRoom: return GrowthStop::kMemoryLimit;
       case Outcome::kPastLimit: return GrowthStop::kFacetLimit;

@@ -67,7 +67,7 @@ void Grower<D>::take_places(std::size_t kept) {
 /// From the first large insertion on searches are shared.
 template <std::size_t D>
 void Grower<D>::share_searches() {
-  if (shares_.empty() && horizon_count_ >= kManyRidges && has_team()) make_shares();
+  if (is_shared_ && shares_.empty() && horizon_count_ >= kManyRidges && has_team()) make_shares();
 }
 
 /// Shares of a wave: one for each thread, with the marks of all searches so far.

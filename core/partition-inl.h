@@ -58,7 +58,7 @@ void Grower<D>::free_visible(std::size_t begin, std::size_t end, std::vector<std
 template <std::size_t D>
 void Grower<D>::partition(std::uint32_t apex) {
   constexpr std::size_t kChunk = std::size_t{1} << 16;  // bounds the memory that a first insertion needs
-  const std::size_t parts = team_ && visible_count_ >= kManyRidges ? team_->threads() : 1;
+  const std::size_t parts = shares_loops() && visible_count_ >= kManyRidges ? team_->threads() : 1;
   const std::size_t size = (visible_count_ + parts - 1) / parts;
   if (emptied_.size() < parts) emptied_.resize(parts);
   for (std::vector<std::uint32_t>& rows : emptied_) rows.clear();

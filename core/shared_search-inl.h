@@ -19,6 +19,29 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
+/// The same, by all threads or alone, whichever takes less.
+template <std::size_t D>
+typename Grower<D>::Outcome Grower<D>::insert_timed(std::uint32_t apex_id, std::uint32_t seed) {
+  if (new_count_ < kManyRidges || !has_team()) {
+    is_shared_ = true;
+    return insert(apex_id, seed);
+  }
+  is_shared_ = sharing_.shares(new_count_);
+  PhaseClock clock(true);
+  const Outcome outcome = insert(apex_id, seed);
+  double seconds = 0.0;
+  clock.lap(seconds);
+  if (outcome == Outcome::kAdded && new_count_ >= kManyRidges) sharing_.took(is_shared_, new_count_, seconds);
+  return outcome;
+}
+
+/// Starts the other threads, if there are any and they are not there yet.
+template <std::size_t D>
+bool Grower<D>::has_team() {
+  if (!team_ && threads_ > 1) team_ = std::make_unique<Team>(threads_);
+  return team_ != nullptr;
+}
+
 /// Marks what was found without the other shares since they last had all marks.
 template <std::size_t D>
 void Grower<D>::mark_found_alone(std::uint8_t* marks) {

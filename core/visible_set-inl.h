@@ -125,7 +125,7 @@ std::size_t Grower<D>::search(const double* apex, double threshold, std::uint8_t
   FirstMet<D> lists[2];
   std::size_t tested = begin, listed = begin, turn = 0;
   const bool is_open = result.visible == visible_.data();
-  const std::size_t most = shares_.empty() ? SIZE_MAX : kManyVisible;
+  const std::size_t most = shares_.empty() || !is_shared_ ? SIZE_MAX : kManyVisible;
   for (;;) {
     std::size_t limit = end;
     if (is_open) limit = result.visible_count - listed < most ? result.visible_count : listed;
@@ -158,7 +158,7 @@ void Grower<D>::find_visible(const double* apex_in, std::uint32_t seed, double t
   shared_visible_ = shared_horizon_ = 0;
   is_cut_ = false;
   for (std::size_t begin = 0; begin < visible_count_;) {
-    if (!shares_.empty() && visible_count_ - begin >= kManyVisible) {
+    if (is_shared_ && !shares_.empty() && visible_count_ - begin >= kManyVisible) {
       const std::size_t end = visible_count_;
       search_wave(apex, threshold, begin, end);
       begin = end;
