@@ -25,6 +25,8 @@
 #include <system_error>
 #include <vector>
 
+#include "core/block_store.h"
+
 namespace ndhull {
 namespace {
 
@@ -120,6 +122,7 @@ StartedChild start_child(const std::function<nlohmann::json()>& work) {
   if (child < 0) fail("fork");
   if (child == 0) {
     close(ends[0]);
+    leave_shared_blocks();  // a program of its own would have no others
     run_child(work, ends[1]);
   }
   close(ends[1]);

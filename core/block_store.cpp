@@ -79,6 +79,13 @@ class BlockStore {
     }
   }
 
+  void leave_shared() noexcept {
+    const std::lock_guard lock(mutex_);
+    if (top_ == nullptr) return;
+    top_ = touched_ = std::min(next_multiple(touched_, kStorePage), end_.load(std::memory_order_relaxed));
+    first_free_ = nullptr;
+  }
+
  private:
   static char* end_of(StorePlace* place) { return reinterpret_cast<char*>(place) + place->bytes; }
   static void* block_of(StorePlace* place) { return reinterpret_cast<char*>(place) + kStoreLine; }
@@ -151,6 +158,8 @@ std::size_t address_space() {
 void* take_block(std::size_t bytes) noexcept {
   return bytes < kSmallestBlock || bytes > kLargestBlock ? nullptr : store.take(bytes);
 }
+
+void leave_shared_blocks() noexcept { store.leave_shared(); }
 
 bool is_in_store(const void* address) noexcept { return store.holds(address); }
 

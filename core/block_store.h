@@ -23,6 +23,11 @@ void* take_block(std::size_t bytes) noexcept;
 /// Is the address one of the store's?
 bool is_in_store(const void* address) noexcept;
 
+/// For a process that was copied (fork): leaves behind what was free, and begins in pages that have not been
+/// used. Pages that it shares with the first process would be copied when it writes to them, small ones at a
+/// time. Blocks that it has stay.
+void leave_shared_blocks() noexcept;
+
 /// Gives a block back. Returns false, and does nothing, when `address` is not of the store.
 bool give_block(void* address) noexcept;
 

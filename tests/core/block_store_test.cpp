@@ -88,6 +88,22 @@ TEST(BlockStore, FreePlacesAreJoinedAndTakenAgain) {
   give_block(first);
 }
 
+TEST(BlockStore, ACopiedProcessBeginsInOtherPages) {
+  constexpr std::size_t kBytes = std::size_t{1} << 20;
+  auto* const kept = static_cast<char*>(take_block(kBytes));
+  auto* const freed = static_cast<char*>(take_block(kBytes));
+  ASSERT_NE(freed, nullptr);
+  give_block(freed);
+  leave_shared_blocks();
+  auto* const fresh = static_cast<char*>(take_block(kBytes));
+  EXPECT_GE(fresh, std::max(kept, freed) + kBytes);
+  std::fill_n(kept, kBytes, 'k');
+  std::fill_n(fresh, kBytes, 'f');
+  EXPECT_EQ(std::count(kept, kept + kBytes, 'k'), static_cast<std::ptrdiff_t>(kBytes));
+  EXPECT_TRUE(give_block(kept));
+  EXPECT_TRUE(give_block(fresh));
+}
+
 TEST(BlockStore, LeavesOtherSizesAndAddressesAlone) {
   EXPECT_EQ(take_block(kSmallestBlock - 1), nullptr);
   EXPECT_EQ(take_block(kLargestBlock + 1), nullptr);
