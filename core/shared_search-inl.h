@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-/// The same, by all threads or alone, whichever takes less.
+/// An insertion by all threads or alone, whichever takes less.
 template <std::size_t D>
 typename Grower<D>::Outcome Grower<D>::insert_timed(std::uint32_t apex_id, std::uint32_t seed) {
   if (new_count_ < kManyRidges || !has_team()) {

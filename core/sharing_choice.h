@@ -10,8 +10,8 @@ namespace ndhull {
 
 /// Chooses, insertion by insertion, between one thread and all, by what each took for a ridge. How far a line
 /// of memory has to go from core to core differs by a factor of ten between machines, and another process may
-/// keep a core busy: sharing insertions of a thousand ridges took 0.6 of one thread's time on one
-/// machine, 1.4 on another. The choice changes no result. Insertions of about the same size are a class; one
+/// keep a core busy: growth with two threads took 0.6 of one thread's time on one machine, 1.4 on
+/// another. The choice changes no result. Insertions of about the same size are a class; one
 /// after the other is about as large, so the last one tells the class of the next.
 class SharingChoice {
  public:
