@@ -43,7 +43,7 @@ constexpr std::size_t kNeighboursIn = std::min(D, std::max<std::size_t>(5, (3 * 
 constexpr double kManySimplices = 64.0;
 constexpr std::size_t kRowsPrepared = 1 << 13;
 /// Rows whose way from memory has begun.
-constexpr std::size_t kAhead = 4, kSeedsAhead = 8, kPlanesAhead = 3;
+constexpr std::size_t kAhead = 4, kSeedsAhead = 12, kPlanesAhead = 6, kOpenAhead = 3;
 
 /// How many simplices slabs hold: the mean over simplices, which few large slabs can rule, and what all
 /// simplices are divided by to get the number of slabs.
@@ -268,18 +268,19 @@ class Partitioner {
     for (std::size_t k = 0; k < D; ++k) open += facets_.marks.is_taken(row_of(seed)[D + k]) ? 0u : 1u;
     return open >= least;
   }
-  /// Are they in the slab too?
+  /// Are they in the slab too? All are looked at, without a branch for each: what it turns on cannot be
+  /// foreseen.
   bool has_in_slab(std::uint32_t seed, std::size_t least, const SeedPlane<D>& own) const {
     const SimplexMarks& marks = facets_.marks;
     const std::uint32_t* const row = row_of(seed);
     const SimplexMarks::Mark mark = marks[seed];
-    for (std::size_t k = 0, found = 0; found < least; ++k) {
-      if (found + D - k < least) return false;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < D; ++k) {
       const SimplexMarks::Mark neighbour = marks[row[D + k]];
-      if (SimplexMarks::is_taken(neighbour)) continue;
-      found += dot(own.plane, marks.vertex_across(mark, row[k], neighbour)) >= own.least ? 1u : 0u;
+      const bool is_in = dot(own.plane, marks.vertex_across(mark, row[k], neighbour)) >= own.least;
+      found += (is_in ? 1u : 0u) & (SimplexMarks::is_taken(neighbour) ? 0u : 1u);
     }
-    return true;
+    return found >= least;
   }
 
   /// Grows slabs from the seeds in their order, those with `least` neighbours in their slab. What is left are
@@ -295,13 +296,17 @@ class Partitioner {
     seeds.resize(left);
   }
 
-  /// Begins the way from memory of what the seeds after this one are made of.
+  /// Begins the way from memory of what the seeds after this one are made of, and of their neighbours' marks.
   void fetch(std::span<const std::uint32_t> seeds, std::size_t place) const {
-    facets_.marks.ask_for(seeds[std::min(place + kSeedsAhead, seeds.size() - 1)]);
-    const std::uint32_t soon = seeds[std::min(place + kPlanesAhead, seeds.size() - 1)];
-    if (facets_.marks.is_taken(soon)) return;
-    prefetch(complex_.planes.data() + std::size_t{soon} * D, D);
-    prefetch(row_of(soon), 2 * D);
+    const auto later = [&](std::size_t ahead) { return seeds[std::min(place + ahead, seeds.size() - 1)]; };
+    facets_.marks.ask_for(later(kSeedsAhead));
+    if (const std::uint32_t seed = later(kPlanesAhead); !facets_.marks.is_taken(seed)) {
+      prefetch(complex_.planes.data() + std::size_t{seed} * D, D);
+      prefetch(row_of(seed), 2 * D);
+    }
+    if (const std::uint32_t seed = later(kOpenAhead); !facets_.marks.is_taken(seed)) {
+      for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(row_of(seed)[D + k]);
+    }
   }
 
   bool take_slab(std::uint32_t seed, std::size_t least) {

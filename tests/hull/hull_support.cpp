@@ -1,6 +1,7 @@
 #include "tests/hull/hull_support.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_set>
@@ -167,15 +168,19 @@ double extent_of(const PointSet& set) {
   return extent;
 }
 
-// Doubles rule out the points that are far below a plane, long double decides about the rest.
+// Doubles rule out the points that are far below a plane, long double decides about the rest. Points are
+// taken in parts that stay in the first cache.
 long double largest_outer_excess(const Hull& hull, const PointView& points) {
   if (hull.facet_count() == 0) return 0.0L;
+  constexpr std::size_t kPart = 256;
   const std::size_t n = points.rows, d = points.dimension;
-  std::vector<double> columns(n * d), largest(d, 0.0), value(n);
-  for (std::size_t k = 0; k < d; ++k) {
-    for (std::size_t i = 0; i < n; ++i) {
-      columns[k * n + i] = points.at(i, k) - hull.reference[k];
-      largest[k] = std::max(largest[k], std::abs(columns[k * n + i]));
+  std::vector<double> columns((n + kPart) * d), largest(d, 0.0);
+  const auto part = [&](std::size_t begin) { return columns.data() + begin * d; };  // [k * kPart + i - begin]
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < d; ++k) {
+      double& value = part(i - i % kPart)[k * kPart + i % kPart];
+      value = points.at(i, k) - hull.reference[k];
+      largest[k] = std::max(largest[k], std::abs(value));
     }
   }
   long double excess = -std::numeric_limits<long double>::infinity();
@@ -185,16 +190,21 @@ long double largest_outer_excess(const Hull& hull, const PointView& points) {
     const long double outer =
         static_cast<long double>(hull.outer_offset(facet)) * hull.input_per_length_unit(facet);
     double size = std::abs(hull.centred_offset(facet));
-    std::fill(value.begin(), value.end(), hull.centred_offset(facet));
-    for (std::size_t k = 0; k < d; ++k) {
-      size += std::abs(normal[k]) * largest[k];
-      for (std::size_t i = 0; i < n; ++i) value[i] += normal[k] * columns[k * n + i];
-    }
+    for (std::size_t k = 0; k < d; ++k) size += std::abs(normal[k]) * largest[k];
     // Twice the bound of a dot product of d terms with rounded differences.
     const double bound = 2.0 * static_cast<double>(d + 3) * 0x1p-53 * size;
     const double threshold = static_cast<double>(std::max(excess, -1.0L * size) + outer) - bound;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (value[i] > threshold) excess = std::max(excess, certified_distance(hull, facet, points, i) - outer);
+    for (std::size_t begin = 0; begin < n; begin += kPart) {
+      std::array<double, kPart> value;
+      value.fill(hull.centred_offset(facet));
+      for (std::size_t k = 0; k < d; ++k) {
+        const double* const column = part(begin) + k * kPart;
+        for (std::size_t i = 0; i < kPart; ++i) value[i] += normal[k] * column[i];
+      }
+      for (std::size_t i = 0; i < std::min(kPart, n - begin); ++i) {
+        if (value[i] > threshold)
+          excess = std::max(excess, certified_distance(hull, facet, points, begin + i) - outer);
+      }
     }
   }
   return excess;
