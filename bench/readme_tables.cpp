@@ -126,11 +126,17 @@ Table exact_table(const std::vector<RunRecord>& records) {
   };
   for (const auto& [name, runs] : inputs) {
     const auto& [ndhull, qhull] = runs;
-    if (ndhull.is_empty() || qhull.is_empty()) continue;
-    table.rows.push_back({input_cell(name, ndhull.done.back().points), grouped_number(ndhull.last().facets),
-                          fmt::format("{:.1e}", ndhull.last().max_facet_width), seconds_text(ndhull),
-                          mebibytes(ndhull), seconds_text(qhull), mebibytes(qhull),
-                          fmt::format("{:.1f}", qhull.median_seconds() / ndhull.median_seconds())});
+    if (ndhull.is_empty() || (qhull.is_empty() && qhull.failure.empty())) continue;
+    std::vector<std::string> row{
+        input_cell(name, ndhull.done.back().points), grouped_number(ndhull.last().facets),
+        fmt::format("{:.1e}", ndhull.last().max_facet_width), seconds_text(ndhull), mebibytes(ndhull)};
+    if (qhull.is_empty()) {
+      row.insert(row.end(), {qhull.failure, "-", "-"});
+    } else {
+      row.insert(row.end(), {seconds_text(qhull), mebibytes(qhull),
+                             fmt::format("{:.1f}", qhull.median_seconds() / ndhull.median_seconds())});
+    }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

@@ -168,6 +168,12 @@ def test_readme_has_the_tables_of_the_results():
     assert "| old |" not in text and ours["machine"]["cpu"] in text, text
     assert text.startswith("# Title\n\nWords <!-- table: exact --> stay.\n") and "\nbetween\n" in text, text
     run(PROGRAM, "readme", folder, readme, "--check")
+    # A peer that met a limit is not left out.
+    stopped = {**theirs, "end": "time_limit", "reason": "stopped after 20 s"}
+    (folder / "peers.jsonl").write_text(f"{json.dumps(ours)}\n{json.dumps(stopped)}\n", encoding="utf-8")
+    run(PROGRAM, "readme", folder, readme)
+    assert row[:5] + ["stopped after 20 s", "-", "-"] in [
+        line.strip("| ").split(" | ") for line in readme.read_text(encoding="utf-8").splitlines()]  # fmt: skip
     for bad in ("<!-- table: exact -->\n", "<!-- end of table -->\n", "<!-- table: exact -->\n" * 2,
                 "<!-- table: unknown -->\n<!-- end of table -->\n", "<!-- table: joggled cube -->\n<!-- end of table -->\n"):  # fmt: skip
         readme.write_text(bad, encoding="utf-8")
