@@ -14,7 +14,7 @@
 namespace ndhull {
 namespace {
 
-constexpr std::size_t kRowsAhead = 24, kFacetsAhead = 12;  // whose way from memory has begun
+constexpr std::size_t kRowsAhead = 24, kFacetsAhead = 24;  // whose way from memory has begun
 
 /// The vertices of some facets one after the other, as rows of the points.
 class VertexLister {
@@ -72,10 +72,15 @@ class ListedFacets {
 
   /// Can one thread keep which points each facet has near, while rows pass by in the order of memory?
   bool is_better_by_rows() const {
+    // Bits in the second cache, or in the third where rows are so many that each list would have pages of
+    // its own.
     constexpr std::size_t kNear = std::size_t{1} << 20, kRowBytesPerByte = 4, kMostWords = 64;
-    const std::size_t bytes = 8 * layout_.facets * words_;
+    constexpr std::size_t kFurther = std::size_t{1} << 22, kRowBytesPerFurtherByte = 12;
+    const std::size_t bytes = 8 * layout_.facets * words_,
+                      row_bytes = 16 * complex_.rank * complex_.row_count;
     return layout_.in_place == 0 && vertices_ == nullptr && !has_more_threads() && words_ <= kMostWords &&
-           bytes <= kNear && kRowBytesPerByte * bytes <= 16 * complex_.rank * complex_.row_count;
+           ((bytes <= kNear && kRowBytesPerByte * bytes <= row_bytes) ||
+            (bytes <= kFurther && kRowBytesPerFurtherByte * bytes <= row_bytes));
   }
 
   /// Facet by facet: its simplices are anywhere in memory.

@@ -212,6 +212,7 @@ class SegmentMerger {
   Host find_host(std::uint32_t facet, Search& search) const {
     find_neighbours(facet, search);
     choose_neighbours(search.neighbours);
+    for (const Neighbour& neighbour : search.neighbours) prefetch(vertices_of(neighbour.facet).data());
     if (!search.neighbours.empty()) find_own_depths(facet, search);
     for (const Neighbour& neighbour : search.neighbours) {
       Host host{neighbour.facet};

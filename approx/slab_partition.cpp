@@ -42,8 +42,9 @@ template <std::size_t D>
 constexpr std::size_t kNeighboursIn = std::min(D, std::max<std::size_t>(5, (3 * D + 4) / 5));
 constexpr double kManySimplices = 64.0;
 constexpr std::size_t kRowsPrepared = 1 << 13;
-/// Rows whose way from memory has begun.
-constexpr std::size_t kAhead = 4, kSeedsAhead = 12, kPlanesAhead = 6, kOpenAhead = 3;
+/// Rows whose way from memory has begun. Of a slab's members only the next one's neighbours are asked for:
+/// rows further ahead are on their way themselves where slabs are small, and to read them would be to wait.
+constexpr std::size_t kAhead = 1, kSeedsAhead = 12, kPlanesAhead = 6, kOpenAhead = 3;
 
 /// How many simplices slabs hold: the mean over simplices, which few large slabs can rule, and what all
 /// simplices are divided by to get the number of slabs.

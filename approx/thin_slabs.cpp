@@ -32,7 +32,7 @@ namespace ndhull {
 namespace {
 
 /// Rows whose way from memory has begun.
-constexpr std::size_t kRowsAhead = 8, kMembersAhead = 4;
+constexpr std::size_t kRowsAhead = 8, kMembersAhead = 1;
 constexpr std::size_t kStarRowsInBlock = 1 << 13, kStarsAtATime = 64;
 constexpr double kNothingFits = 1e30;  // a product that no point has
 
@@ -86,8 +86,7 @@ class ThinPartitioner {
     return facets_.marks.vertex_across(facets_.marks[row], vertices[k], facets_.marks[vertices[D + k]]);
   }
 
-  /// Which neighbours are less than the width below each row's own plane. Points above are not looked at
-  /// here: they leave less.
+  /// Which neighbours are less than the width below each row's own plane. Points above would leave less.
   void find_stars() {
     // Of more points than simplices a second table would take memory that no limit knows of.
     std::optional<FloatPoints> points;
@@ -147,6 +146,7 @@ class ThinPartitioner {
     for_each_open(
         0, rows.size(), [&](std::size_t i) { return rows[i]; }, [](std::uint32_t) {},
         [&](std::uint32_t row) {
+          prefetch(&fitting_[row]);
           if (least >= kGrowsFrom) prefetch(plane_of(row), D);
         },
         [&](std::uint32_t row) { take_star(row, least); });
@@ -177,11 +177,12 @@ class ThinPartitioner {
 
   void take_star(std::uint32_t row, unsigned least) {
     keep_open(row, fitting_[row]);
-    std::optional<SeedPlane<D>> own;  // far away in memory: not read where bits say all
-    if (planes_.may_have_points_above() && count_bits(fitting_[row]) >= least) {
+    SeedPlane<D> own;  // far away in memory: not read where bits say all
+    const bool is_raised = planes_.may_have_points_above();
+    if (is_raised && count_bits(fitting_[row]) >= least) {
       own = planes_.own(row);
-      planes_.raise_top(*own);
-      keep_above(row, *own, fitting_[row]);
+      planes_.raise_top(own);
+      keep_above(row, own, fitting_[row]);
     }
     if (count_bits(fitting_[row]) < least) return passes_.put_back(row, fitting_[row]);
     add_facet(row);
@@ -190,7 +191,8 @@ class ThinPartitioner {
       take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))]);
     if (member_count_ - first < kGrowsFrom) return;
     for (std::size_t i = first; i < member_count_; ++i) prefetch(row_of(facets_.members[i]), 2 * D);
-    grow(first, own ? *own : planes_.own(row));
+    if (!is_raised) own = planes_.own(row);
+    grow(first, own);
   }
 
   /// Of these neighbours those that are in no facet.
@@ -219,9 +221,8 @@ class ThinPartitioner {
     facets_.members[member_count_++] = row;
   }
 
-  /// Takes what is in the slab behind the neighbours that were taken from a seed, `next` being the first.
-  /// What a neighbour turns out to be cannot be foreseen: each is written behind what was taken, and stays
-  /// there or not.
+  /// Takes what is in the slab behind neighbours that were taken from a seed, `next` being the first. What
+  /// one turns out to be cannot be foreseen: each is written behind what was taken, and stays there or not.
   void grow(std::size_t next, const SeedPlane<D>& own) {
     SimplexMarks& marks = facets_.marks;
     std::uint32_t* const members = facets_.members.data();
