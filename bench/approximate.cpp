@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "bench/approximate.h"
@@ -56,8 +58,8 @@ class Bench {
         run_ndhull_case(input, approximate, approximate_task::kEqualWidth,
                         parse_option_set(fmt::format("width {}", qhull.last().max_facet_width)), round);
       }
-      if (with_targets) run_targets(input, approximate, round);
     }
+    if (with_targets) run_targets(input, approximate);
   }
 
  private:
@@ -86,17 +88,28 @@ class Bench {
            (repeats.is_empty() || repeats.last().wall_seconds <= BenchCase::kSlowSeconds);
   }
 
-  void run_targets(const BenchInput& input, const ApproximateCase& approximate, unsigned round) {
-    run_ndhull_case(input, approximate, approximate_task::kTargets, parse_option_set("exact"), round);
+  /// In turns, whose order turns around, so that a slow spell of the machine is all of theirs; slow ones
+  /// once. Thorough ones after that, once: their noise is small beside what they are compared with.
+  void run_targets(const BenchInput& input, const ApproximateCase& approximate) {
     std::string texts;
     for (const char letter : options_.widths)
       texts += letter == ',' ? std::string(",width ") : std::string(1, letter);
-    for (const OptionSet& target : parse_option_sets("width " + texts)) {
-      run_ndhull_case(input, approximate, approximate_task::kTargets, target, round);
-      if (round > 0) continue;  // seconds each: their noise is small beside what they are compared with
-      run_ndhull_case(input, approximate, approximate_task::kThorough,
-                      parse_option_set(target.text + " thorough"), round);
+    const std::vector<OptionSet> widths = parse_option_sets("width " + texts);
+    std::vector<OptionSet> turns = widths;
+    turns.insert(turns.begin(), parse_option_set("exact"));
+    for (unsigned round = 0; round < options_.target_rounds; ++round) {
+      std::vector<OptionSet> again;
+      for (const OptionSet& target : turns) {
+        run_ndhull_case(input, approximate, approximate_task::kTargets, target, round);
+        if (records_.back().is_done() && records_.back().run.wall_seconds <= BenchCase::kSlowSeconds)
+          again.push_back(target);
+      }
+      std::ranges::reverse(again);
+      turns = std::move(again);
     }
+    for (const OptionSet& width : widths)
+      run_ndhull_case(input, approximate, approximate_task::kThorough,
+                      parse_option_set(width.text + " thorough"), 0);
   }
 
   Repeats earlier_qhull(const ApproximateCase& approximate) {
@@ -193,8 +206,10 @@ void run_approximate(const ApproximateOptions& options) {
     for (const ApproximateCase& approximate : chosen_cases(options)) fmt::print("{}\n", approximate.name());
     return;
   }
-  fmt::print("{}\none thread; at most {} rounds, one run of Qhull where it takes over {} s\n",
-             machine_line(describe_machine()), options.rounds, BenchCase::kSlowSeconds);
+  fmt::print(
+      "{}\none thread; at most {} rounds, one run of Qhull where it takes over {} s; {} of hulls beside the "
+      "exact one\n",
+      machine_line(describe_machine()), options.rounds, BenchCase::kSlowSeconds, options.target_rounds);
   const std::vector<RunRecord> records = measure_approximate(options);
   for (const Table& table : approximate_tables(records)) fmt::print("\n{}", table.as_text());
   throw_if_ndhull_failed(records);
@@ -220,6 +235,14 @@ void add_approximate_command(CLI::App& app) {
       app.add_subcommand("approximate", "approximate hulls of ndhull and Qhull, side by side");
   options->selection.add_options(*command);
   command->add_option("--rounds", options->rounds, "runs of each; of Qhull one where it is slow")
+      ->check(CLI::Range(1U, 1000U))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--target-rounds", options->target_rounds,
+          fmt::format(
+              "runs of the exact hull and of each of --widths, in turns; one where it takes over {} s",
+              BenchCase::kSlowSeconds))
       ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
   command->add_flag("--skip-qhull", options->skip_qhull, "leave out Qhull, and what is compared with it");

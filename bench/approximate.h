@@ -16,6 +16,7 @@ struct ApproximateOptions {
   std::string widths = "1%,2%,5%,10%,20%";
   std::string max_memory = "4G";
   unsigned rounds = 3;
+  unsigned target_rounds = 9;  ///< of exact hulls and those of `widths`, some tenths of a second each
   double max_seconds = 600.0;
   bool skip_qhull = false;
   bool skip_slow = false;
