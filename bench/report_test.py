@@ -121,7 +121,7 @@ def test_every_command_has_its_tables():
                   ("selections", "--only", "500 D4"), ("joggle", "--only", "c D3", "--runs", "20"),
                   ("phases", "--only", "c D8", "--rounds", "1"),
                   ("rays", "--only", "2000 s D5", "--seeds", "1", "--skip-big"),
-                  ("approximate", "--only", "2000 s D5", "--rounds", "1", "--skip-qhull", "--widths", "20%")):  # fmt: skip
+                  ("approximate", "--only", "2000 s D5", "--rounds", "1", "--target-rounds", "1", "--skip-qhull", "--widths", "20%")):  # fmt: skip
         path = SCRATCH / f"{words[0]}.jsonl"
         run(PROGRAM, *words, "--json", path, *(["--quiet"] if words[0] != "approximate" else []))
         lines += path.read_text(encoding="utf-8")

@@ -68,7 +68,7 @@ def test_a_time_limit_is_reported_and_the_bench_goes_on():
 
 def test_approximate_compares_options_facets_and_width():
     path = SCRATCH / "approximate.jsonl"
-    words = ["approximate", "--only", "2000 s D5", "--rounds", "1", "--widths", "10%,20%"]
+    words = ["approximate", "--only", "2000 s D5", "--rounds", "1", "--target-rounds", "2", "--widths", "10%,20%"]
     table = run(*words, "--json", str(path))
     records = {(record["engine"], record["task"], record["options"]): record for record in records_of(path)}
     qhull = records["qhull", "equal options", "W0.1 C0.01"]
@@ -79,6 +79,9 @@ def test_approximate_compares_options_facets_and_width():
     same_width = records["ndhull", "equal width", f"width {qhull['max_facet_width']}"]
     assert same_width["max_facet_width"] <= qhull["max_facet_width"]
     assert records["ndhull", "targets", "exact"]["facets"] == 56576
+    turns = [(record["round"], record["options"]) for record in records_of(path) if record["task"] == "targets"]
+    names = ["exact", "width 10%", "width 20%"]
+    assert turns == [(0, name) for name in names] + [(1, name) for name in reversed(names)], turns
     assert records["ndhull", "targets", "width 20%"]["max_facet_width"] <= 0.2
     thorough = records["ndhull", "thorough", "width 10% thorough"]
     assert thorough["max_facet_width"] <= 0.1 and thorough["facets"] < records["ndhull", "targets", "width 10%"]["facets"]
