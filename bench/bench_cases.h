@@ -30,7 +30,7 @@ struct BenchCase {
   double qhull_seconds = 0.0;  ///< [seconds] that Qhull 2020.2 takes; half of it on a fast core
   std::function<BenchInput(const std::string& data_folder)> load;
 
-  /// Runs of Qhull above this are made once, or left out on request.
+  /// Longer runs are made once; those of Qhull are left out on request.
   static constexpr double kSlowSeconds = 20.0;
   bool is_slow_for_qhull() const { return qhull_seconds > kSlowSeconds; }
 };
