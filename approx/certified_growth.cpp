@@ -153,6 +153,7 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
     hull_.status = status_of(stop);
     seconds(Phase::kGrowth) += seconds_since(phase_start);
     if (stop == GrowthStop::kPaused) {
+      drop_paused();
       report_counters();
       return true;
     }
@@ -201,6 +202,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
 
 void CertifiedGrowth::locate_left_out(double useful_slack) {
   forget_waiting();  // what is left out goes back by `repair`
+  drop_paused();
   const Clock::time_point begin = Clock::now();
   std::uint64_t searched_all = 0;
   tell(Phase::kCertify, work_.points_outside, furthest_height());

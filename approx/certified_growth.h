@@ -68,6 +68,8 @@ class CertifiedGrowth {
   /// little they are above.
   void put_back(std::span<const LocatedPoint> points);
 
+  /// Growth that has paused will not soon go on: its lists and marks are given back.
+  void drop_paused() { work_.paused.reset(); }
   GrowthWork& work() { return work_; }
   const double* coordinates() const { return coordinates_.data(); }
   const PointView& input() const { return points_; }

@@ -142,6 +142,7 @@ bool Approximation::find_stars(double outside_width, double slab) {
 
 /// Goes on without the complex. `rows`: simplices that the hull will about have.
 bool Approximation::take_star_hull(double slab, double rows) {
+  growth_.drop_paused();
   const double share =
       rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));

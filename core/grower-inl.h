@@ -120,6 +120,7 @@ class Grower {
   ~Grower();
 
   GrowthStop run();
+  bool may_go_on() const;
 
  private:
   /// What one grower alone changes. Regions that grow at the same time have each their own.

@@ -37,6 +37,15 @@ bool Grower<D>::room_for_cone() {
   return rows_for_cone() <= row_end();
 }
 
+/// After a pause: are points and tables where they were, and as many threads to be had?
+template <std::size_t D>
+bool Grower<D>::may_go_on() const {
+  const SimplicialComplex& complex = work_.complex;
+  return points_ == work_.points && threads_ == team_threads(kMostThreads) &&
+         planes_ == complex.planes.data() && topology_ == complex.topology.data() &&
+         state_ == complex.state.data() && head_ == complex.outside_head.data();
+}
+
 /// Moves all tables if there is no room in them for so many rows. What a search has found is kept.
 template <std::size_t D>
 void Grower<D>::make_place_for(std::size_t rows) {

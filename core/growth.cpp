@@ -135,6 +135,7 @@ void forget_outside(GrowthWork& work) {
 }
 
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first) {
+  work.paused.reset();
   work.complex = SimplicialComplex();
   work.complex.rank = work.rank;
   work.free_rows = HugeArray<std::uint32_t>();
@@ -212,11 +213,13 @@ void make_room_for(GrowthWork& work, std::size_t rows) {
 }
 
 GrownHull take_grown(GrowthWork& work) {
+  work.paused.reset();
   forget_outside(work);
   return {std::move(work.complex), std::move(work.free_rows), work.free_count, work.counters};
 }
 
 void start_growth(GrowthWork& work, GrownHull grown) {
+  work.paused.reset();
   work.complex = std::move(grown.complex);
   work.free_rows = std::move(grown.free_rows);
   work.free_count = grown.free_count;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -84,6 +85,14 @@ struct GrowthWork {
   GrowthOptions options;
   GrowthCounters counters;
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
+
+  /// What growth that has paused goes on with: its threads, lists and marks, and what it has learned of the
+  /// machine. May be dropped at any time, to have the memory: the next call of `grow` makes its own.
+  std::shared_ptr<void> paused;
+
+  GrowthWork() = default;
+  GrowthWork(const GrowthWork&) = delete;  // what has paused knows where the work is
+  GrowthWork& operator=(const GrowthWork&) = delete;
 
   /// The complex has no more vertices than those of the first simplex and the points added.
   std::size_t most_vertices() const { return counters.insertions + complex.rank + 1; }

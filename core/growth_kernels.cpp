@@ -1,6 +1,8 @@
 // The growth loops, compiled once for each instruction set and each dimension; the best set that the
 // machine has is chosen at run time (Highway).
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
@@ -25,7 +27,11 @@ namespace HWY_NAMESPACE {
 
 template <std::size_t D>
 GrowthStop run_in_dimension(GrowthWork& work) {
-  return Grower<D>(work).run();
+  auto grower = std::static_pointer_cast<Grower<D>>(std::exchange(work.paused, nullptr));
+  if (!grower || !grower->may_go_on()) grower = std::make_shared<Grower<D>>(work);
+  const GrowthStop stop = grower->run();
+  if (stop == GrowthStop::kPaused) work.paused = std::move(grower);
+  return stop;
 }
 
 GrowthStop run_growth(GrowthWork& work) {
