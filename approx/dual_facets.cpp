@@ -45,12 +45,31 @@ std::vector<std::uint32_t> DualFacets::facet_of_rows() const {
     for (std::size_t facet = first; facet < last; ++facet) {
       for (std::size_t i = begin[facet]; i < begin[facet + 1]; ++i) {
         const std::size_t later = std::min<std::size_t>(i + kAskedBefore, begin.back() - 1);
-        prefetch(&facet_of[members[later]]);
-        facet_of[members[i]] = static_cast<std::uint32_t>(facet);
+        prefetch(&facet_of[members[later].value]);
+        facet_of[members[i].value] = static_cast<std::uint32_t>(facet);
       }
     }
   });
   return facet_of;
+}
+
+void list_facets(DualFacets& facets, std::size_t member_count, std::span<const std::uint32_t> with_planes) {
+  const auto members = std::span(facets.members).first(member_count);
+  const auto count = static_cast<std::size_t>(
+      std::ranges::count_if(members, [](SimplexId simplex) { return (simplex.value & kSeedBit) != 0; }));
+  facets.seeds.resize(count);
+  facets.own_plane.resize(count, kNone);
+  facets.begin.resize(count + 1, static_cast<std::uint32_t>(member_count));
+  std::size_t facet = 0, planes = 0;
+  for (std::uint32_t i = 0; i < member_count; ++i) {
+    if ((members[i].value & kSeedBit) == 0) continue;
+    members[i].value &= ~kSeedBit;
+    facets.seeds[facet] = members[i].value;
+    facets.begin[facet] = i;
+    if (planes < with_planes.size() && with_planes[planes] == members[i].value)
+      facets.own_plane[facet] = static_cast<std::uint32_t>(planes++);
+    ++facet;
+  }
 }
 
 Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
@@ -96,30 +115,41 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   return covering;
 }
 
+// In the memory that the lists have: from the end on, simplices of clusters move to the back, which leaves
+// the front to those that are facets alone.
 FacetClusters clusters_of(DualFacets facets) {
   FacetClusters clusters;
+  std::vector<SimplexId> alone;
   const auto is_alone = [&](std::size_t facet) {
     return facets.size(facet) == 1 && facets.own_plane[facet] == kNone;
   };
-  std::uint32_t alone = 0;
-  for (std::size_t facet = 0; facet < facets.count(); ++facet) alone += is_alone(facet) ? 1u : 0u;
+  const std::size_t count = facets.count();
+  for (std::size_t facet = 0; facet < count; ++facet)
+    if (is_alone(facet)) alone.push_back(SimplexId{facets.seeds[facet]});
+  clusters.simplices = std::move(facets.members);
   clusters.simplices.resize(facets.begin.back());
-  clusters.begin.reserve(facets.count() - alone + 1);
-  std::uint32_t next_alone = 0, next = alone;
-  for (std::size_t facet = 0; facet < facets.count(); ++facet) {
-    if (is_alone(facet)) {
-      clusters.simplices[next_alone++] = SimplexId{facets.seeds[facet]};
-      continue;
-    }
-    clusters.begin.push_back(next);
-    // No cluster has a larger number than its facet.
-    facets.seeds[clusters.count] = facets.seeds[facet];
-    facets.own_plane[clusters.count++] = facets.own_plane[facet];
-    for (const std::uint32_t row : facets.members_of(facet)) clusters.simplices[next++] = SimplexId{row};
+  const auto simplices = clusters.simplices.begin();
+  auto to = clusters.simplices.end();
+  for (std::size_t facet = count; facet-- > 0;) {
+    if (is_alone(facet)) continue;
+    to = std::copy_backward(simplices + facets.begin[facet], simplices + facets.begin[facet + 1], to);
   }
-  clusters.begin.push_back(next);
+  std::copy(alone.begin(), alone.end(), simplices);
+  auto next = static_cast<std::uint32_t>(alone.size());
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    if (is_alone(facet)) continue;
+    // No cluster has a larger number than its facet.
+    const auto size = static_cast<std::uint32_t>(facets.size(facet));
+    facets.seeds[clusters.count] = facets.seeds[facet];
+    facets.own_plane[clusters.count] = facets.own_plane[facet];
+    facets.begin[clusters.count++] = next;
+    next += size;
+  }
+  facets.begin[clusters.count] = next;
+  facets.begin.resize(clusters.count + 1);
   facets.seeds.resize(clusters.count);
   facets.own_plane.resize(clusters.count);
+  clusters.begin = std::move(facets.begin);
   clusters.seeds = std::move(facets.seeds);
   clusters.own_plane = std::move(facets.own_plane);
   clusters.planes = std::move(facets.own_planes);

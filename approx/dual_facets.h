@@ -14,7 +14,6 @@
 #include "approx/plane_fit.h"
 #include "approx/simplex_marks.h"
 #include "approx/width_space.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/simplicial_complex.h"
 
@@ -24,7 +23,7 @@ namespace ndhull {
 struct DualFacets {
   const SimplicialComplex* complex = nullptr;
   SimplexMarks marks;                    ///< of each row; taken: in a facet, or a free row
-  HugeArray<std::uint32_t> members;      ///< rows of the complex, facet by facet, the seed first
+  std::vector<SimplexId> members;        ///< facet by facet, the seed first
   std::vector<std::uint32_t> begin;      ///< of each facet in `members`, and the end
   std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
   std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
@@ -46,7 +45,7 @@ struct DualFacets {
   std::size_t count() const { return seeds.size(); }
   bool may_join() const { return !vertex_begin.empty(); }
   std::size_t size(std::size_t facet) const { return begin[facet + 1] - begin[facet]; }
-  std::span<const std::uint32_t> members_of(std::size_t facet) const {
+  std::span<const SimplexId> members_of(std::size_t facet) const {
     return {members.data() + begin[facet], size(facet)};
   }
   /// Per row of the complex; kNone: a free row. Cost  a write anywhere in memory for each, by all threads.
@@ -56,6 +55,12 @@ struct DualFacets {
     return {own_planes.data() + own_plane[facet] * complex->rank, complex->rank};
   }
 };
+
+/// In `members` the seed of a facet, until facets are listed: no row has so high a number.
+inline constexpr std::uint32_t kSeedBit = 0x8000'0000u;
+/// Makes the tables of facets from `members`, of which so many are listed: seeds have the bit. `with_planes`:
+/// the seeds of facets that have planes of their own, in order.
+void list_facets(DualFacets& facets, std::size_t member_count, std::span<const std::uint32_t> with_planes);
 
 /// plane . y as four sums that are made side by side: one after the other, each addition would wait for the
 /// last. Inner loops are written so that compilers make pairs of them.

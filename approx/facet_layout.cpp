@@ -132,27 +132,6 @@ void list_simplices(const FacetClusters& clusters, const ClusterPlaces& places, 
   }
 }
 
-/// The same of clusters that are listed, in their order.
-void take_lists(FacetClusters& clusters, FacetLayout& layout) {
-  constexpr std::size_t kFacetsInBlock = 1 << 12, kAskedBefore = 16;
-  layout.simplices = std::move(clusters.simplices);
-  layout.merged_begin = std::move(clusters.begin);
-  clusters.begin.clear();
-  layout.facet_of_others.resize(layout.simplices.size());
-  FacetId* const facet_of = layout.facet_of_others.data();
-  for_each_block(layout.facets, kFacetsInBlock, [&](std::size_t first, std::size_t last) {
-    for (std::size_t facet = first; facet < last; ++facet) {
-      const auto id = FacetId{static_cast<std::uint32_t>(facet)};
-      for (const SimplexId& simplex : layout.simplices_of(id)) {
-        const SimplexId* const later = &simplex + kAskedBefore;
-        prefetch(facet_of +
-                 (later < layout.simplices.data() + layout.simplices.size() ? *later : simplex).value);
-        facet_of[simplex.value] = id;
-      }
-    }
-  });
-}
-
 /// Sums over the simplices of each merged facet: determinants, those times the planes, and areas.
 struct MergedSums {
   std::vector<double> determinants, area_vectors, surface;
@@ -215,6 +194,23 @@ void take_facet_planes(const SimplicialComplex& complex, const FacetClusters& cl
 
 }  // namespace
 
+void FacetLayout::number_simplices() {
+  constexpr std::size_t kFacetsInBlock = 1 << 12, kAskedBefore = 16;
+  if (in_place == facets || !facet_of_others.empty()) return;
+  facet_of_others.resize(simplices.size() - in_place);
+  for_each_block(facets - in_place, kFacetsInBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = in_place + first; facet < in_place + last; ++facet) {
+      const auto id = FacetId{static_cast<std::uint32_t>(facet)};
+      for (const SimplexId& simplex : simplices_of(id)) {
+        const SimplexId* const later = &simplex + kAskedBefore;
+        prefetch(facet_of_others.data() +
+                 (later < simplices.data() + simplices.size() ? *later : simplex).value - in_place);
+        facet_of_others[simplex.value - in_place] = id;
+      }
+    }
+  });
+}
+
 std::vector<double> FacetClusters::planes_of(const SimplicialComplex& complex) const {
   std::vector<double> all(count * complex.rank);
   for (std::uint32_t cluster = 0; cluster < count; ++cluster)
@@ -233,11 +229,11 @@ void FacetClusters::number_rows(std::size_t row_count) {
 
 void FacetClusters::move_rows(std::span<const RowMove> moves, std::size_t row_count) {
   if (count == 0) return;
+  // The last rows go first.
+  std::vector<std::uint32_t> new_of_last(moves.empty() ? 0 : moves.front().from - row_count + 1);
+  for (const RowMove& one : moves) new_of_last[one.from - row_count] = one.to;
   const auto move = [&](std::uint32_t& row) {
-    if (row < row_count) return;
-    // The last rows go first.
-    const auto is_later = [](const RowMove& one, std::uint32_t from) { return one.from > from; };
-    row = std::lower_bound(moves.begin(), moves.end(), row, is_later)->to;
+    if (row >= row_count) row = new_of_last[row - row_count];
   };
   if (are_listed()) {
     for (SimplexId& simplex : simplices) move(simplex.value);
@@ -266,7 +262,7 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex) {
   return layout;
 }
 
-FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters& clusters,
+FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters clusters,
                     std::span<const double> gradient_factor) {
   if (clusters.count == 0) return simplicial_layout(complex);
   const std::size_t rank = complex.rank;
@@ -285,14 +281,17 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     const auto cluster_at = [&](std::size_t merged) {
       return takes_lists ? static_cast<std::uint32_t>(merged) : places.cluster_at[merged];
     };
+    if (takes_lists) {
+      layout.simplices = std::move(clusters.simplices);
+      layout.merged_begin = std::move(clusters.begin);
+      clusters.begin.clear();
+      take_facet_planes(complex, clusters, cluster_at, 0, layout.facets, layout);
+      return layout;
+    }
     do_beside(
         [&] {
-          if (takes_lists) {
-            take_lists(clusters, layout);
-          } else {
-            list_simplices(
-                clusters, places, [](std::uint32_t row) { return row; }, layout);
-          }
+          list_simplices(
+              clusters, places, [](std::uint32_t row) { return row; }, layout);
         },
         [&] { take_facet_planes(complex, clusters, cluster_at, layout.simplicial, layout.facets, layout); });
     take_facet_planes(complex, clusters, cluster_at, 0, layout.simplicial, layout);

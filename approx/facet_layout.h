@@ -60,7 +60,8 @@ struct FacetLayout {
   std::size_t facets = 0;
   std::vector<std::uint32_t> merged_begin;  ///< facets - simplicial + 1 entries; the first is `simplicial`
   std::vector<SimplexId> simplices;         ///< facet by facet: those of one simplex, then the merged
-  std::vector<FacetId> facet_of_others;     ///< of simplex in_place + i
+  /// Of simplex in_place + i. Where facets have planes of their own: none before number_simplices().
+  std::vector<FacetId> facet_of_others;
   /// Where no row moves: facets x rank, the planes of the facets. The complex' planes and the determinants
   /// are then the simplices', and sums over these are made where they are wanted (later_areas.h). Else empty.
   HugeArray<double> planes;
@@ -74,6 +75,8 @@ struct FacetLayout {
   double merged_surface = 0.0;
   int surface_exponent = 0;
 
+  /// Cost  a write anywhere in memory for each simplex, by all threads; nothing where it was done.
+  void number_simplices();
   FacetId facet_of(SimplexId simplex) const {
     return simplex.value < in_place ? FacetId{simplex.value} : facet_of_others[simplex.value - in_place];
   }
@@ -106,11 +109,11 @@ FacetLayout simplicial_layout(const SimplicialComplex& complex);
 /// facets' are given back.
 ///
 /// Shapes  determinants: complex.row_count. gradient_factor: rank x rank, |R a| the gradient of the gauge
-///         above plane a in input units. clusters: lists are lost.
+///         above plane a in input units. clusters: their memory is the facet table's then.
 /// Order   as clusters list them where no row moves; else merged facets stand in the order of their first
 ///         simplex, as the rows were, their simplices ascending. Rows that can stay do.
 /// Cost    O(rows rank).
-FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters& clusters,
+FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, FacetClusters clusters,
                     std::span<const double> gradient_factor);
 
 }  // namespace ndhull

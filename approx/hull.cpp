@@ -61,7 +61,7 @@ const FacetLists& Hull::lists() const {
     if (later_) {
       list(later_->layout(layout_.simplicial));
     } else {
-      list(layout_);
+      list(numbered_layout());
     }
   };
   std::call_once(lists_->made, [&] { tbb::this_task_arena::isolate(make); });
@@ -83,7 +83,13 @@ std::span<const FacetId> Hull::neighbours_of(FacetId facet) const {
 const SimplicialComplex& Hull::simplices() const { return later_ ? later_->complex() : simplices_; }
 
 FacetId Hull::facet_of(SimplexId simplex) const {
-  return later_ ? later_->facet_of(simplex) : layout_.facet_of(simplex);
+  return later_ ? later_->facet_of(simplex) : numbered_layout().facet_of(simplex);
+}
+
+const FacetLayout& Hull::numbered_layout() const {
+  std::call_once(lists_->numbered,
+                 [&] { tbb::this_task_arena::isolate([&] { layout_.number_simplices(); }); });
+  return layout_;
 }
 
 std::uint64_t Hull::simplex_count_of(FacetId facet) const {

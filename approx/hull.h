@@ -185,6 +185,7 @@ class Hull {
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
+  /// Cost  the first call for an approximate hull notes this of all simplices; several threads may make it.
   FacetId facet_of(SimplexId simplex) const;
   std::uint64_t simplex_count() const { return simplex_count_; }
   std::uint64_t simplex_count_of(FacetId facet) const;
@@ -201,12 +202,13 @@ class Hull {
 
  private:
   friend class HullBuilder;
-  FacetLayout layout_;
+  mutable FacetLayout layout_;  // which facet a simplex is of may be noted when that is first asked for
   HugeArray<double> normals_, centred_offsets_, outer_, inner_, areas_;
   struct Lists {
-    std::once_flag made;
+    std::once_flag made, numbered;
     FacetLists lists;
   };
+  const FacetLayout& numbered_layout() const;
   const FacetLists& lists() const;
   const double* areas() const {
     return later_areas_ ? later_areas_->of_facets(layout_, normals_.data()).data() : areas_.data();

@@ -19,7 +19,6 @@
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth.h"
-#include "core/membership.h"
 #include "core/stopwatch.h"
 
 namespace ndhull {
@@ -99,7 +98,7 @@ class HullBuilder {
     }
     merge();
     if (!is_bounded_) return for_width_instead();
-    if (clusters_.count > 0) known = KnownHighest();  // facets are no longer the rows
+    if (hull_.layout_.simplicial < hull_.layout_.facets) known = {};  // facets are no longer the rows
     make_facets(known);
     seconds(Phase::kMerge) += seconds_since(merge_start);
     return std::move(hull_);
@@ -164,7 +163,8 @@ class HullBuilder {
                                  kShiftsInPlane * growth_->work().options.shift);
     }
     if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);
-    hull_.layout_ = lay_out(complex(), determinants, clusters_, gradient_factor(frame_, LengthUnit()));
+    hull_.layout_ =
+        lay_out(complex(), determinants, std::move(clusters_), gradient_factor(frame_, LengthUnit()));
     detail("coplanar merging", merge_start);
   }
 

@@ -49,7 +49,7 @@ class VertexLister {
 /// Looks at facets with lists of simplices or vertices.
 class ListedFacets {
  public:
-  ListedFacets(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+  ListedFacets(const SimplicialComplex& complex, FacetLayout& layout, const IdRows* vertices,
                const CertificatePoints& points, const double* normals, const ListedDots& dots)
       : complex_(complex),
         layout_(layout),
@@ -118,6 +118,7 @@ class ListedFacets {
 
   /// Row by row: of each facet one bit for each vertex.
   void look_at_rows() {
+    layout_.number_simplices();
     std::vector<std::uint64_t> is_vertex(layout_.facets * words_);
     const auto last = static_cast<std::uint32_t>(complex_.row_count - 1);
     for (std::uint32_t row = 0; row <= last; ++row) {
@@ -161,7 +162,7 @@ class ListedFacets {
   }
 
   const SimplicialComplex& complex_;
-  const FacetLayout& layout_;
+  FacetLayout& layout_;
   const IdRows* vertices_;
   const CertificatePoints& points_;
   const double* normals_;
@@ -171,7 +172,7 @@ class ListedFacets {
 
 }  // namespace
 
-void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+void find_own_dots(const SimplicialComplex& complex, FacetLayout& layout, const IdRows* vertices,
                    const CertificatePoints& points, const double* normals, const ListedDots& dots) {
   ListedFacets(complex, layout, vertices, points, normals, dots).run();
 }

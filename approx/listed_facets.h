@@ -22,8 +22,9 @@ struct ListedDots {
 /// `vertices`: of the facets from layout.in_place on; null: those of their simplices. `normals`: facets x
 /// dimension. All bits are the same for any number of threads.
 /// Cost  for each simplex a random read of 4 rank bytes. With one thread the rows are read as they stand
-///       where a bit for each facet and point stays in cache. A product for each vertex of a facet.
-void find_own_dots(const SimplicialComplex& complex, const FacetLayout& layout, const IdRows* vertices,
+///       where a bit for each facet and point stays in cache, and simplices numbered. A product for each
+///       vertex of a facet.
+void find_own_dots(const SimplicialComplex& complex, FacetLayout& layout, const IdRows* vertices,
                    const CertificatePoints& points, const double* normals, const ListedDots& dots);
 
 }  // namespace ndhull

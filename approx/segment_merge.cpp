@@ -83,7 +83,7 @@ class SegmentMerger {
  private:
   struct Facet {
     std::uint32_t simplices;                   // 0: it has joined another
-    std::uint32_t first_vertex, vertex_count;  // in listed_, each vertex once; none of a single simplex
+    std::uint32_t first_vertex, vertex_count;  // in listed_, or behind; none of a single simplex
     double top, room;                          // of its plane; how deep vertices may be below that
   };
   /// Between the facet that is being looked at and a neighbour.
@@ -174,16 +174,16 @@ class SegmentMerger {
     if (place + 2 < facets.size()) {
       const std::uint32_t later = facets[place + 2];
       prefetch(plane_of(later), D);
-      for (const std::uint32_t row : table_.members_of(later)) {
-        prefetch(row_of(row), 2 * D);
-        table_.marks.ask_for(row);
+      for (const SimplexId member : table_.members_of(later)) {
+        prefetch(row_of(member.value), 2 * D);
+        table_.marks.ask_for(member.value);
       }
     }
     if (place + 1 == facets.size()) return;
-    for (const std::uint32_t row : table_.members_of(facets[place + 1])) {
+    for (const SimplexId member : table_.members_of(facets[place + 1])) {
       for (std::size_t k = 0; k < D; ++k) {
-        prefetch(&facet_of_[row_of(row)[D + k]]);
-        table_.marks.ask_for(row_of(row)[D + k]);
+        prefetch(&facet_of_[row_of(member.value)[D + k]]);
+        table_.marks.ask_for(row_of(member.value)[D + k]);
       }
     }
   }
@@ -200,12 +200,13 @@ class SegmentMerger {
   template <class Visit>
   void for_members(std::uint32_t facet, const Visit& visit) const {
     for (std::uint32_t part = facet; part != kNone; part = next_[part])
-      for (const std::uint32_t row : table_.members_of(part)) visit(row);
+      for (const SimplexId member : table_.members_of(part)) visit(member.value);
   }
 
   std::span<const PointId> vertices_of(std::uint32_t facet) const {
     if (facets_[facet].simplices == 1) return complex_.vertices(SimplexId{table_.seeds[facet]});
-    return {listed_.data() + facets_[facet].first_vertex, facets_[facet].vertex_count};
+    const std::size_t first = facets_[facet].first_vertex, own = listed_.size();
+    return {first < own ? &listed_[first] : &joined_[first - own], facets_[facet].vertex_count};
   }
 
   /// The first that fits. To look for the one that it is narrowest with takes longer, and leaves more facets.
@@ -336,26 +337,27 @@ class SegmentMerger {
       }
     }
     facets_[host] = {.simplices = facets_[host].simplices + facets_[facet].simplices,
-                     .first_vertex = static_cast<std::uint32_t>(listed_.size()),
+                     .first_vertex = static_cast<std::uint32_t>(listed_.size() + joined_.size()),
                      .vertex_count = static_cast<std::uint32_t>(union_.size()),
                      .top = table_.tops[host],
                      .room = width_ * double{table_.lengths[host]}};
     facets_[facet].simplices = 0;
-    listed_.insert(listed_.end(), union_.begin(), union_.end());
+    joined_.insert(joined_.end(), union_.begin(), union_.end());
     next_[last_[host]] = facet;
     last_[host] = last_[facet];
   }
 
   /// Leaves the facets that have not joined another, with all that have joined them.
   void drop_joined() {
-    auto members = HugeArray<std::uint32_t>::to_write(table_.begin.back());
+    planes_ = {};  // in whose memory lists find place
+    std::vector<SimplexId> members(table_.begin.back());
     std::vector<std::uint32_t> begin;
     begin.reserve(table_.begin.size());
     std::uint32_t used = 0, count = 0;
     for (std::uint32_t facet = 0; facet < table_.count(); ++facet) {
       if (facets_[facet].simplices == 0) continue;
       begin.push_back(count);
-      for_members(facet, [&](std::uint32_t row) { members[count++] = row; });
+      for_members(facet, [&](std::uint32_t row) { members[count++] = SimplexId{row}; });
       table_.seeds[used] = table_.seeds[facet];
       table_.own_plane[used] = table_.own_plane[facet];
       table_.tops[used] = table_.tops[facet];
@@ -378,10 +380,10 @@ class SegmentMerger {
   DualFacets& table_;
   std::vector<std::uint32_t> facet_of_;  // per row of the complex: as joined
   std::vector<Facet> facets_;
-  HugeArray<double> planes_;                // facets x D
-  std::vector<std::uint32_t> next_, last_;  // per facet: chains of those that have joined it
-  std::vector<PointId> listed_, union_;     // vertices
-  std::vector<std::uint32_t> pass_of_;      // per point: the last join that met it
+  HugeArray<double> planes_;                      // facets x D
+  std::vector<std::uint32_t> next_, last_;        // per facet: chains of those that have joined it
+  std::vector<PointId> listed_, joined_, union_;  // each facet's vertices once, those of joined ones behind
+  std::vector<std::uint32_t> pass_of_;            // per point: the last join that met it
   std::uint32_t pass_ = 0;
 };
 

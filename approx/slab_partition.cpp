@@ -14,7 +14,6 @@
 #include "approx/seed_planes.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
 #include "core/prefetch.h"
 
@@ -62,19 +61,23 @@ class Partitioner {
         coordinates_(coordinates),
         above_(above),
         planes_(complex, space, factor, above, width),
-        classes_(complex, [this](std::size_t row) { return length_sq_of(row); }),
         dots_(space.point_count()) {
     facets_.complex = &complex;
     facets_.marks = SimplexMarks(complex.row_count, space.point_count());
     for (std::uint32_t row = 0; row < complex.row_count; ++row) live_count_ += is_live(row) ? 1u : 0u;
-    members_ = HugeArray<std::uint32_t>::to_write(live_count_ + D);
+    members_.resize(live_count_ + D);
   }
 
-  /// To be called for all rows before slabs are found, some at a time, by any thread. `walks`: by walks.
-  void prepare(std::size_t begin, std::size_t end, bool walks) {
+  /// Slabs will be found by walks.
+  void choose_walks() {
+    classes_.emplace(complex_, [this](std::size_t row) { return length_sq_of(row); });
+  }
+
+  /// To be called for all rows before slabs are found, some at a time, by any thread.
+  void prepare(std::size_t begin, std::size_t end) {
     for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
       make_mark(row);
-      if (walks) classes_.put(row, length_sq_of(row));
+      if (classes_) classes_->put(row, length_sq_of(row));
     }
   }
 
@@ -110,11 +113,18 @@ class Partitioner {
     return live_count_ >= kFewSimplices && (sizes.mean < kThinSlabs || sizes.typical < kMostThin);
   }
 
-  /// All simplices, no live one of them taken.
-  DualFacets take_marks() { return std::move(facets_); }
+  /// The marks of all simplices, no live one of them taken, and room for as many members.
+  DualFacets take_table() {
+    facets_.members = std::move(members_);
+    return std::move(facets_);
+  }
 
   /// Live rows, those whose planes are nearest to the centre first.
-  std::vector<std::uint32_t> seeds_by_distance() const { return classes_.sorted(live_count_); }
+  std::vector<std::uint32_t> seeds_by_distance() {
+    std::vector<std::uint32_t> seeds = classes_->sorted(live_count_);
+    classes_.reset();
+    return seeds;
+  }
 
   /// `seeds`: seeds_by_distance().
   DualFacets run(const SlabSizes& sizes, std::vector<std::uint32_t> seeds) {
@@ -170,7 +180,7 @@ class Partitioner {
   template <bool kMakesMarks = false>
   void grow(std::uint32_t seed, const SeedPlane<D>& own) {
     ++slab_;
-    members_[count_++] = seed;
+    members_[count_++] = SimplexId{seed};
     facets_.marks.set_taken(seed, true);
     make_room(D);
     for (std::size_t k = 0; k < D; ++k) {
@@ -200,15 +210,15 @@ class Partitioner {
   template <bool kMakesMarks>
   void walk_from(std::size_t next, const SeedPlane<D>& own) {
     SimplexMarks& marks = facets_.marks;
-    std::uint32_t* const members = members_.data();
+    SimplexId* const members = members_.data();
     const std::uint32_t slab = slab_;
     for (; next < count_; ++next) {
       if (next + kAhead < count_) {
-        const std::uint32_t* later = row_of(members[next + kAhead]) + D;
+        const std::uint32_t* later = row_of(members[next + kAhead].value) + D;
         for (std::size_t k = 0; k < D; ++k) marks.ask_for(later[k]);
       }
-      const std::uint32_t* row = row_of(members[next]);
-      const SimplexMarks::Mark mark = marks[members[next]];
+      const std::uint32_t* row = row_of(members[next].value);
+      const SimplexMarks::Mark mark = marks[members[next].value];
       SimplexMarks::Mark open_marks[D];
       std::uint32_t open[D], across[D];
       std::size_t open_count = 0;
@@ -228,8 +238,8 @@ class Partitioner {
         facets_.vertices[vertex_count_] = PointId{across[i]};
         vertex_count_ += is_taken ? 1u - known.is_in_slab : 0u;
         known.is_in_slab = is_taken ? 1u : 0u;  // one that is not taken now never is
-        members[count_] = open[i];
-        const std::uint32_t* asked = row_of(is_taken ? open[i] : members[next]);
+        members[count_] = SimplexId{open[i]};
+        const std::uint32_t* asked = row_of(is_taken ? open[i] : members[next].value);
         prefetch(asked, 2 * D);
         marks.put(open[i], static_cast<std::uint32_t>(open_marks[i]), is_taken);
         count_ += is_taken ? 1u : 0u;
@@ -244,13 +254,13 @@ class Partitioner {
   }
 
   void give_back(Ends begin) {
-    for (std::size_t i = begin.members; i < count_; ++i) facets_.marks.set_taken(members_[i], false);
+    for (std::size_t i = begin.members; i < count_; ++i) facets_.marks.set_taken(members_[i].value, false);
     count_ = begin.members;
     vertex_count_ = begin.vertices;
   }
 
   void add_facet(Ends begin, const SeedPlane<D>& own) {
-    facets_.seeds.push_back(members_[begin.members]);
+    facets_.seeds.push_back(members_[begin.members].value);
     facets_.begin.push_back(static_cast<std::uint32_t>(begin.members));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(begin.vertices));
     if (count_ - begin.members == 1) vertex_count_ = begin.vertices;
@@ -323,7 +333,7 @@ class Partitioner {
       grow(seed, own);
       if (are_turned_) grow_on(begin, own);
     } else {
-      members_[count_++] = seed;
+      members_[count_++] = SimplexId{seed};
       facets_.marks.set_taken(seed, true);
     }
     add_facet(begin, own);
@@ -336,11 +346,11 @@ class Partitioner {
   const double* coordinates_;
   PointsAbove above_;
   SeedPlanes<D> planes_;
-  SeedClasses classes_;
+  std::optional<SeedClasses> classes_;
   std::vector<Dot> dots_;  // per point
   bool are_turned_ = false;
-  std::uint32_t slab_ = 0;            // each time that a plane is new
-  HugeArray<std::uint32_t> members_;  // as far as they are listed: count_
+  std::uint32_t slab_ = 0;          // each time that a plane is new
+  std::vector<SimplexId> members_;  // as far as they are listed: count_
   std::size_t live_count_ = 0, count_ = 0, vertex_count_ = 0;
   DualFacets facets_;
 };
@@ -357,7 +367,8 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     const SlabSizes sizes = partitioner.slab_sizes();
     if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
-    const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end, walks); };
+    if (walks) partitioner.choose_walks();
+    const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
     // One thread finds determinants, which will be wanted anyway, while it has the rows near.
     const bool finds_first = walks && find_determinants && !has_more_threads();
     if (finds_first) {
@@ -367,7 +378,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     }
     if (!walks)
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
-                                       partitioner.take_marks());
+                                       partitioner.take_table());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
     if (finds_first || !find_determinants) return partitioner.run(sizes, std::move(seeds));
     // Slabs are one thread's work: another one finds the determinants.

@@ -50,12 +50,7 @@ class ThinPartitioner {
         row_count_(static_cast<std::uint32_t>(complex_.row_count)),
         facets_(std::move(facets)),
         fitting_(row_count_),
-        point_count_(space.point_count()) {
-    facets_.members = HugeArray<std::uint32_t>::to_write(row_count_ + D);
-    // Address space, of which no more is used than there are facets.
-    for (std::vector<std::uint32_t>* const per_facet : {&facets_.seeds, &facets_.begin, &facets_.own_plane})
-      per_facet->reserve(row_count_ + 1);
-  }
+        point_count_(space.point_count()) {}
 
   DualFacets run() {
     find_stars();
@@ -63,7 +58,8 @@ class ThinPartitioner {
               [&] { determinants_ = find_determinants_([](std::size_t, std::size_t) {}); });
     take_pairs();
     take_others();
-    facets_.begin.push_back(static_cast<std::uint32_t>(member_count_));
+    fitting_ = {};  // in whose memory tables of facets find place
+    list_facets(facets_, member_count_, with_planes_);
     // Planes between two others, and raised ones, are no nearer.
     facets_.are_far_from_centre = facets_.are_far_from_centre && are_far_from_centre_;
     return std::move(facets_);
@@ -190,7 +186,7 @@ class ThinPartitioner {
     for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1)
       take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))]);
     if (member_count_ - first < kGrowsFrom) return;
-    for (std::size_t i = first; i < member_count_; ++i) prefetch(row_of(facets_.members[i]), 2 * D);
+    for (std::size_t i = first; i < member_count_; ++i) prefetch(row_of(facets_.members[i].value), 2 * D);
     if (!is_raised) own = planes_.own(row);
     grow(first, own);
   }
@@ -218,21 +214,21 @@ class ThinPartitioner {
   /// Into the last facet.
   void take(std::uint32_t row) {
     facets_.marks.set_taken(row, true);
-    facets_.members[member_count_++] = row;
+    facets_.members[member_count_++] = SimplexId{row};
   }
 
   /// Takes what is in the slab behind neighbours that were taken from a seed, `next` being the first. What
   /// one turns out to be cannot be foreseen: each is written behind what was taken, and stays there or not.
   void grow(std::size_t next, const SeedPlane<D>& own) {
     SimplexMarks& marks = facets_.marks;
-    std::uint32_t* const members = facets_.members.data();
+    SimplexId* const members = facets_.members.data();
     for (; next < member_count_; ++next) {
       if (next + kMembersAhead < member_count_) {
-        const std::uint32_t* const later = row_of(members[next + kMembersAhead]) + D;
+        const std::uint32_t* const later = row_of(members[next + kMembersAhead].value) + D;
         for (std::size_t k = 0; k < D; ++k) marks.ask_for(later[k]);
       }
-      const std::uint32_t* const row = row_of(members[next]);
-      const SimplexMarks::Mark mark = marks[members[next]];
+      const std::uint32_t* const row = row_of(members[next].value);
+      const SimplexMarks::Mark mark = marks[members[next].value];
       SimplexMarks::Mark open_marks[D];
       std::uint32_t open[D], across[D];
       std::size_t count = 0;
@@ -245,8 +241,8 @@ class ThinPartitioner {
       }
       for (std::size_t i = 0; i < count; ++i) {
         const bool is_in = dot(own.plane.data(), across[i]) >= own.least;
-        members[member_count_] = open[i];
-        prefetch(row_of(is_in ? open[i] : members[next]), 2 * D);
+        members[member_count_] = SimplexId{open[i]};
+        prefetch(row_of(is_in ? open[i] : members[next].value), 2 * D);
         marks.put(open[i], static_cast<std::uint32_t>(open_marks[i]), is_in);
         member_count_ += is_in ? 1u : 0u;
       }
@@ -256,6 +252,8 @@ class ThinPartitioner {
   /// Two simplices below a plane between theirs: each, in the order of memory, with the first neighbour that
   /// fits. Where there are threads for it these see first which fit at all.
   void take_pairs() {
+    passes_ = {};
+    facets_.own_planes.reserve((row_count_ - member_count_) / 2 * D);  // address space: few are used
     const auto list = [&](std::uint32_t row) {
       list_open_partners(row);
       ask_for_partners(row);
@@ -360,14 +358,14 @@ class ThinPartitioner {
     }
   }
 
-  /// No plane: the seed's own.
+  /// No plane: the seed's own. Seeds are marked: the tables, whose sizes are not known, are made in the end.
   void add_facet(std::uint32_t seed, const std::array<double, D>* plane = nullptr) {
-    facets_.seeds.push_back(seed);
-    facets_.begin.push_back(static_cast<std::uint32_t>(member_count_));
-    facets_.own_plane.push_back(plane == nullptr ? kNone
-                                                 : static_cast<std::uint32_t>(facets_.own_planes.size() / D));
-    if (plane != nullptr) facets_.own_planes.insert(facets_.own_planes.end(), plane->begin(), plane->end());
+    if (plane != nullptr) {
+      with_planes_.push_back(seed);
+      facets_.own_planes.insert(facets_.own_planes.end(), plane->begin(), plane->end());
+    }
     take(seed);
+    facets_.members[member_count_ - 1].value |= kSeedBit;
   }
 
   const SimplicialComplex& complex_;
@@ -382,7 +380,8 @@ class ThinPartitioner {
   std::size_t point_count_;
   std::atomic<bool> are_far_from_centre_ = true;  // the simplices' planes
   StarPasses<D> passes_;
-  std::size_t member_count_ = 0;  // of those listed in facets_
+  std::size_t member_count_ = 0;            // of those listed in facets_
+  std::vector<std::uint32_t> with_planes_;  // seeds of facets that have planes of their own, in order
 };
 
 }  // namespace

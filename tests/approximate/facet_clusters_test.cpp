@@ -113,7 +113,8 @@ TEST(FacetClusters, AreLaidOutAsTheSameFacetsWhetherListedOrNumbered) {
       if (!is_listed) found.clusters.number_rows(complex.row_count);
       std::vector<double> determinants(complex.row_count, 1.0), factor(complex.rank * complex.rank, 0.0);
       ASSERT_GT(found.clusters.count, 0u);
-      const FacetLayout layout = lay_out(complex, determinants, found.clusters, factor);
+      FacetLayout layout = lay_out(complex, determinants, found.clusters, factor);
+      layout.number_simplices();
       EXPECT_EQ(layout.planes.data() != nullptr, width == 0.05);
       laid_out.emplace_back();
       for (std::uint32_t facet = 0; facet < layout.facets; ++facet) {

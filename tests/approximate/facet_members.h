@@ -24,7 +24,7 @@ inline std::vector<std::vector<std::uint32_t>> members_of(const GrownSphere& sph
     if (facet < members.size()) members[facet].push_back(row);
   }
   for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
-    EXPECT_EQ(facets.members_of(facet).front(), facets.seeds[facet]);
+    EXPECT_EQ(facets.members_of(facet).front().value, facets.seeds[facet]);
     std::vector<std::uint32_t> met{facets.seeds[facet]};
     for (std::size_t i = 0; i < met.size(); ++i) {
       for (const SimplexId neighbour : sphere.work.complex.neighbours(SimplexId{met[i]})) {

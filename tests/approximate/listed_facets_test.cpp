@@ -53,7 +53,7 @@ struct LaidOut {
                   points.rows.data() + points.row_of_point[id] * rank);
   }
 
-  Listed list(int threads) const {
+  Listed list(int threads) {
     Listed found;
     found.low.resize(layout.facets);
     found.high.resize(layout.facets);
@@ -73,14 +73,14 @@ struct LaidOut {
 };
 
 TEST(ListedFacets, AreTheSameBitsRowByRow) {
-  const LaidOut made;
+  LaidOut made;
   ASSERT_NE(made.layout.planes.data(), nullptr);
   ASSERT_LT(8 * made.layout.facets, made.sphere.work.complex.row_count);
   EXPECT_TRUE(made.list(1) == made.list(2));
 }
 
 TEST(ListedFacets, ProductsAreThoseOfTheirSimplices) {
-  const LaidOut made;
+  LaidOut made;
   const Listed found = made.list(1);
   const std::size_t rank = made.layout.planes.data() != nullptr ? made.sphere.work.complex.rank : 0;
   for (std::uint32_t facet = 0; facet < made.layout.facets; ++facet) {

@@ -43,8 +43,9 @@ double product(const GrownSphere& sphere, std::span<const double> plane, std::ui
 void expect_lists(const GrownSphere& sphere, const DualFacets& facets) {
   const std::vector<std::vector<std::uint32_t>> members = members_of(sphere, facets);
   for (std::uint32_t facet = 0; facet < facets.count(); ++facet) {
-    EXPECT_EQ(facets.members_of(facet)[0], facets.seeds[facet]);
-    std::vector<std::uint32_t> listed(facets.members_of(facet).begin(), facets.members_of(facet).end());
+    EXPECT_EQ(facets.members_of(facet)[0].value, facets.seeds[facet]);
+    std::vector<std::uint32_t> listed;
+    for (const SimplexId member : facets.members_of(facet)) listed.push_back(member.value);
     std::sort(listed.begin(), listed.end());
     EXPECT_EQ(listed, members[facet]);
   }

@@ -35,6 +35,7 @@ struct ThinSlabs {
     DualFacets open;
     open.complex = &sphere.work.complex;
     open.marks = SimplexMarks(sphere.work.complex.row_count, marked_points);
+    open.members.resize(sphere.work.complex.row_count + rank);
     for (std::uint32_t row = 0; row < sphere.work.complex.row_count; ++row) {
       std::uint32_t mix = 0;
       for (const PointId id : sphere.work.complex.vertices(SimplexId{row})) mix ^= id.value;
