@@ -17,6 +17,7 @@
 #include "core/block_elimination-inl.h"
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -25,6 +26,8 @@ namespace HWY_NAMESPACE {
 constexpr std::size_t kSimplicesInBlock = 2048;
 
 constexpr std::size_t kLanes = hn::MaxLanes(Tag());
+/// Rows whose way from memory has begun. The machine's own foresight ends with each page.
+constexpr std::size_t kRowsAhead = 32;
 /// Diagonal entries from which on elimination without pivots has lost no digits to speak of.
 constexpr double kSmall = 1e-4;
 
@@ -121,6 +124,15 @@ void take_plane(double* plane, const double* solved) {
   for (std::size_t k = 0; k < D; ++k) plane[k] = solved[k * kLanes];
 }
 
+/// Begins the way from memory of the rows that some batches later is the turn of.
+template <std::size_t D>
+HWY_INLINE void ask_for_rows(const SimplicialComplex& complex, std::size_t first) {
+  for (std::size_t row = first + kRowsAhead; row < first + kRowsAhead + kLanes; ++row) {
+    prefetch(complex.topology.data() + row * 2 * D, D);
+    prefetch(complex.planes.data() + row * D, D);
+  }
+}
+
 /// Solves simplices, as many at a time as a vector has lanes. What one gets does not depend on those beside
 /// it.
 template <std::size_t D>
@@ -184,6 +196,7 @@ void solve_simplices_of(SimplicialComplex& complex, const double* points,
     std::array<std::uint32_t, kLanes> batch;
     for (std::size_t begin = first; begin < last; begin += kLanes) {
       const std::size_t used = std::min(kLanes, last - begin);
+      ask_for_rows<D>(complex, begin);
       std::iota(batch.begin(), batch.begin() + used, static_cast<std::uint32_t>(begin));
       solver.solve(std::span(batch).first(used));
       for (std::size_t lane = 0; lane < used; ++lane) {
@@ -233,6 +246,7 @@ class DeterminantFinder {
     SolvedBlock<D> found;
     for (std::size_t first = begin; first < end; first += kLanes) {
       const std::size_t used = std::min(kLanes, end - first);
+      ask_for_rows<D>(complex_, first);
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t row = first + std::min(lane, used - 1);
         const std::span<const PointId> vertices =

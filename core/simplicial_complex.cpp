@@ -21,6 +21,7 @@ template <class NewOf>
 void rename_neighbours(SimplicialComplex& complex, const NewOf& new_of,
                        std::span<const std::uint32_t> moved) {
   constexpr std::size_t kFew = 8;  // one of so many
+  constexpr std::size_t kAhead = 8;
   const std::size_t rank = complex.rank;
   const auto rename = [&](std::size_t row) {
     std::uint32_t* neighbours = complex.topology.data() + row * 2 * rank + rank;
@@ -38,7 +39,11 @@ void rename_neighbours(SimplicialComplex& complex, const NewOf& new_of,
     is_renamed[row] = true;
     rename(row);
   };
-  for (const std::uint32_t row : moved) {
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const std::uint32_t row = moved[i];
+    // Rows beside a later one, which may have its old number.
+    for (const SimplexId later : complex.neighbours(SimplexId{moved[std::min(i + kAhead, moved.size() - 1)]}))
+      prefetch(complex.topology.data() + std::size_t{new_of(later.value)} * 2 * rank, 2 * rank);
     rename_once(row);
     for (const SimplexId neighbour : complex.neighbours(SimplexId{row})) rename_once(neighbour.value);
   }
