@@ -284,7 +284,6 @@ FacetLayout lay_out(SimplicialComplex& complex, std::span<double> determinants, 
     if (takes_lists) {
       layout.simplices = std::move(clusters.simplices);
       layout.merged_begin = std::move(clusters.begin);
-      clusters.begin.clear();
       take_facet_planes(complex, clusters, cluster_at, 0, layout.facets, layout);
       return layout;
     }

@@ -18,11 +18,9 @@ using FindDeterminants = std::function<std::span<const double>(const BlockWork& 
 
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
 ///
-/// Shapes  facets: of `complex`, with each row's mark: taken are the free ones alone; and with as many
-/// members
-///         as there are live rows, and rank more, whatever they are. coordinates: points x rank, in the
-///         frame, of all points that the space may name. gradient_factor: rank x rank. find_determinants:
-///         asked for them once.
+/// Shapes  facets: of `complex`, with each row's mark, taken are the free ones alone, and room for a member
+///         a live row and rank more. coordinates: points x rank, in the frame, of all points that the space
+///         may name. gradient_factor: rank x rank. find_determinants: asked for them once.
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).

@@ -11,9 +11,9 @@
 
 #include "approx/covering.h"
 #include "approx/width_space.h"
-#include "core/frame.h"
 #include "core/growth.h"
 #include "tests/hull/hull_support.h"
+#include "tests/prepared_growth.h"
 #include "tools/rbox.h"
 
 namespace ndhull {
@@ -21,13 +21,8 @@ namespace ndhull {
 /// The hull of points of a sphere, grown in a frame whose coordinates are taken for distances.
 struct GrownSphere {
   GrownSphere(const char* rbox_words, std::uint32_t vertex_count) : set(rbox(rbox_words)) {
-    const Frame frame = fit_frame(set.view());
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
     const std::size_t rank = frame.rank;
-    coordinates.resize(set.view().rows * rank + 8);
-    map_points(set.view(), frame, coordinates.data());
-    work.rank = rank;
-    work.point_count = set.view().rows;
-    work.points = coordinates.data();
     start_growth(work, frame.simplex, FirstPoints());
     grow(work);
     std::vector<double> identity(rank * rank, 0.0);

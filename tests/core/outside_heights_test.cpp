@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "core/frame.h"
 #include "core/growth.h"
+#include "tests/prepared_growth.h"
 
 namespace ndhull {
 namespace {
@@ -100,13 +100,9 @@ TEST(OutsideSets, APointTakenOutLeavesTheOthersTheFurthestFirst) {
   std::vector<double> rows(300 * 4);
   for (double& x : rows) x = static_cast<double>(random()) * 0x1p-32;
   const PointView points = PointView::row_major(rows.data(), 300, 4);
-  const Frame frame = fit_frame(points);
-  std::vector<double> coordinates(300 * frame.rank + 8);
-  map_points(points, frame, coordinates.data());
+  std::vector<double> coordinates;
   GrowthWork work;
-  work.rank = frame.rank;
-  work.point_count = 300;
-  work.points = coordinates.data();
+  const Frame frame = prepare_growth(points, coordinates, work);
   start_growth(work, frame.simplex, FirstPoints());
   std::size_t taken = 0;
   for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/complex_check.h"
-#include "core/frame.h"
 #include "core/growth.h"
+#include "tests/prepared_growth.h"
 #include "tools/rbox.h"
 
 namespace ndhull {
@@ -21,12 +21,7 @@ class GrownInParts {
  public:
   GrownInParts(const PointSet& set, std::uint64_t pause_rows,
                const std::function<void(GrownInParts&)>& between) {
-    const Frame frame = fit_frame(set.view());
-    coordinates.resize(set.coordinates.size() + 8);
-    map_points(set.view(), frame, coordinates.data());
-    work.rank = frame.rank;
-    work.point_count = set.rows();
-    work.points = coordinates.data();
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
     work.options.pause_rows = pause_rows;
     start_growth(work, frame.simplex, FirstPoints());
     GrowthStop stop = GrowthStop::kPaused;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/complex_check.h"
-#include "core/frame.h"
 #include "core/growth.h"
+#include "tests/prepared_growth.h"
 #include "tools/rbox.h"
 
 namespace ndhull {
@@ -19,12 +19,7 @@ using Simplices = std::set<std::vector<std::uint32_t>>;
 
 struct Grown {
   explicit Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0) {
-    const Frame frame = fit_frame(set.view());
-    coordinates.resize(set.coordinates.size() + 8);
-    map_points(set.view(), frame, coordinates.data());
-    work.rank = frame.rank;
-    work.point_count = set.rows();
-    work.points = coordinates.data();
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
     work.options.in_regions = in_regions;
     work.options.pause_rows = pause_rows;
     tbb::task_arena arena(threads);
@@ -32,7 +27,8 @@ struct Grown {
       start_growth(work, frame.simplex, FirstPoints());
       while (grow(work) == GrowthStop::kPaused) {
         EXPECT_TRUE(check_complex(work.complex).sound());
-        work.options.pause_rows += work.options.pause_rows / 2;
+        pause_rows += pause_rows / 2;  // growth has taken it back
+        work.options.pause_rows = pause_rows;
       }
     });
   }

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "core/frame.h"
 #include "core/growth.h"
+#include "tests/prepared_growth.h"
 #include "tools/rbox.h"
 
 namespace ndhull {
@@ -20,13 +20,9 @@ using Row = std::vector<std::uint32_t>;
 /// Points of a sphere about 0, each of which is its own normal, and the simplices that growth makes of them.
 struct Sphere {
   explicit Sphere(const char* words) : set(rbox(words)), rank(set.dimension) {
-    const Frame frame = fit_frame(set.view());
-    std::vector<double> coordinates(set.coordinates.size() + 8);
-    map_points(set.view(), frame, coordinates.data());
+    std::vector<double> coordinates;
     GrowthWork work;
-    work.rank = rank;
-    work.point_count = set.rows();
-    work.points = coordinates.data();
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
     start_growth(work, frame.simplex, FirstPoints());
     grow(work);
     for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {

@@ -11,6 +11,7 @@
 #include "approx/inner_ellipsoid.h"
 #include "core/growth.h"
 #include "tests/hull/hull_support.h"
+#include "tests/prepared_growth.h"
 
 namespace ndhull {
 namespace {
@@ -68,12 +69,8 @@ struct SmallHull {
   std::vector<double> coordinates;
   GrowthWork work;
 
-  explicit SmallHull(const PointView& points) : frame(fit_frame(points)) {
-    coordinates.resize(points.rows * points.dimension + 8);
-    map_points(points, frame, coordinates.data());
-    work.rank = frame.rank;
-    work.point_count = points.rows;
-    work.points = coordinates.data();
+  explicit SmallHull(const PointView& points) {
+    frame = prepare_growth(points, coordinates, work);
     work.options.pause_rows = 4000 * frame.rank;
     start_growth(work, frame.simplex, FirstPoints());
     grow(work);
