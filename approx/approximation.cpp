@@ -7,6 +7,7 @@
 #include "approx/cluster_merge.h"
 #include "approx/exact_facets.h"
 #include "approx/merge_rule.h"
+#include "approx/region_closing.h"
 #include "approx/segment_merge.h"
 #include "approx/slab_partition.h"
 #include "core/ids.h"
@@ -37,10 +38,6 @@ constexpr std::size_t kFewOfWholeHull = 128;
 constexpr double kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 constexpr std::size_t kPartOfMean = 4;
-/// So many facets of which none is wider than the hull is high everywhere bound a region.
-constexpr std::size_t kSurelyBounded = 1000;
-/// Rounds of smaller slabs and more growth before the best so far is taken.
-constexpr int kRounds = 24;
 
 }  // namespace
 
@@ -75,7 +72,7 @@ FacetClusters Approximation::run_merging() {
                  .least_facets = growth_.work().rank + 1};
   Covering covering;
   MergeCounts counts;
-  for (int round = 0; round < kRounds;) {
+  for (int round = 0; round < kWidthRounds;) {
     make_space(true);
     const SimplexRule simplex_rule(growth_.work().complex, *space_, rule, is_convex());
     SlabCover cover(growth_.work().complex, *space_, is_convex(), &simplex_rule);
@@ -231,8 +228,9 @@ bool Approximation::is_final(const DualFacets& facets) const {
          !is_worth_joining_again(facets.count(), live_count());
 }
 
-/// No planes: not even slabs as thin as rounding leave a hull.
-Covering Approximation::cover_width(double width, std::optional<DualFacets> slabs) {
+/// No planes: not even slabs as thin as rounding leave a hull. `known`: as close_open_directions; with points
+/// missing there the covering is not to be used.
+Covering Approximation::cover_width(double width, std::optional<DualFacets> slabs, HullFacets* known) {
   const SimplicialComplex& complex = growth_.work().complex;
   const std::size_t live = live_count();
   std::optional<SlabCover> overlapping;
@@ -242,7 +240,9 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
     return overlapping->cover(width, CoverEffort{.final_fit_steps = 0});
   };
   Covering covering = cover();
-  hull_.chosen.refused_merges += close_open_directions(complex, *space_, covering);
+  hull_.chosen.refused_merges =
+      close_open_directions(complex, *space_, growth_.coordinates(), known, covering);
+  if (known && !known->missing.empty()) return covering;
   while (!keeps_hull(covering)) {
     if (width < thinnest()) return Covering{};
     width *= 0.75;
@@ -262,14 +262,21 @@ FacetClusters Approximation::run_width() {
       lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
   double slab = target;
   Covering covering;
+  HullFacets known;
+  known.width = target;
   if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
-    const bool is_last = round == kRounds;
+    const bool is_last = round == kWidthRounds;
     determinants_ = HugeArray<double>();
     grow_for_width(outside_width, slab);
-    locate_left_out(outside_width);
     if (!growth_.may_cover()) return FacetClusters{};
     make_space(true);
+    const bool may_grow = !is_last && !growth_.is_limited();
+    if (round == 0 && may_grow && leaves_out_hardly_any(outside_width)) {
+      outside_width = 0.0;
+      take_in(outside_width);
+      continue;
+    }
     std::optional<DualFacets> slabs = find_disjoint_slabs(slab, false);
     if (slabs && is_final(*slabs) && !is_thorough()) {
       hull_.chosen.outside_width = outside_width;
@@ -278,14 +285,22 @@ FacetClusters Approximation::run_width() {
       if (!growth_.work().shifted_points.empty()) clusters.keep_planes(growth_.work().complex);
       return clusters;
     }
-    covering = cover_width(slab, std::move(slabs));
+    covering = cover_width(slab, std::move(slabs), may_grow ? &known : nullptr);
     if (covering.planes.empty()) return FacetClusters{};
+    if (may_grow && !known.missing.empty()) {
+      growth_.put_back(located(known.missing));
+      continue;
+    }
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
     if (is_thorough() && widest <= target) look_for_fewer(target, covering);
-    if (widest <= target || is_last || growth_.is_limited() || growth_.is_late()) break;
+    if (widest <= target || !may_grow || growth_.is_late()) break;
     const Offenders offenders = add_offenders(covering, widths, target);
     growth_.put_back(offenders.above_simplices);
+    if (!offenders.above_simplices.empty()) {
+      outside_width = less_outside(outside_width, round);
+      take_in(outside_width);
+    }
     if (offenders.widest_slab > target)
       slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }

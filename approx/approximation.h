@@ -11,6 +11,7 @@
 #include "approx/dual_facets.h"
 #include "approx/facet_layout.h"
 #include "approx/hull.h"
+#include "approx/region_closing.h"
 #include "approx/slab_cover.h"
 #include "approx/star_hull.h"
 #include "approx/width_space.h"
@@ -37,6 +38,9 @@ struct Offenders {
 /// Growth aims at points this part of the facet width outside: what is left of the width then is free for
 /// merging. On spheres a quarter needs 1.15 times the facets that none would, a half 1.6 times.
 inline constexpr double kShareForGrowth = 0.25;
+
+/// Rounds of smaller slabs and more growth before the best so far is taken.
+inline constexpr int kWidthRounds = 24;
 
 /// One approximate hull on its way.
 class Approximation {
@@ -70,7 +74,10 @@ class Approximation {
   std::optional<DualFacets> find_disjoint_slabs(double width, bool is_for_count);
   bool is_final(const DualFacets& facets) const;
   bool is_thorough() const { return accuracy_.effort == Effort::kThorough; }
-  Covering cover_width(double width, std::optional<DualFacets> slabs);
+  Covering cover_width(double width, std::optional<DualFacets> slabs, HullFacets* known);
+  bool leaves_out_hardly_any(double outside_width) const;
+  double less_outside(double outside_width, int round) const;
+  void take_in(double outside_width);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet
@@ -125,7 +132,9 @@ class Approximation {
   double flat() const { return 1e-13 * lengths_.largest_extent; }
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices);
+  std::vector<LocatedPoint> located(std::span<const PointId> left_out) const;
   void grow_for_width(double outside_width, double slab);
+  void grow_in_stages(double outside_width, double slab);
   bool find_stars(double outside_width, double slab);
   bool take_star_hull(double slab, double rows);
   FacetClusters run_width();

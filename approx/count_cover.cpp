@@ -6,6 +6,7 @@
 #include "approx/approximation.h"
 #include "approx/exact_facets.h"
 #include "approx/facet_balance.h"
+#include "approx/region_closing.h"
 
 namespace ndhull {
 namespace {
@@ -80,7 +81,7 @@ double Approximation::consider(const Covering& covering, double slab, CountSearc
 
 /// Facets whose planes bound a region, and fewer where two fit into one slab.
 void Approximation::close_and_join(Covering& covering, double width, bool joins) const {
-  close_open_directions(growth_.work().complex, *space_, covering);
+  close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), nullptr, covering);
   if (joins) join_neighbours(covering, width);
 }
 

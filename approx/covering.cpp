@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "approx/boundedness.h"
 #include "core/dense_solve.h"
 #include "core/ids.h"
 
@@ -70,43 +69,6 @@ FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {
   for (std::size_t row = 0; row < covering.facet_of.size(); ++row)
     if (covering.facet_of[row] != kNone) clusters.cluster_of[row] = cluster[covering.facet_of[row]];
   return clusters;
-}
-
-std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
-                                  Covering& covering) {
-  constexpr std::size_t kSurelyBounded = 1000;
-  const std::size_t rank = space.rank(), most = 8 * rank;
-  if (covering.planes.size() > kSurelyBounded) return 0;
-  std::vector<std::uint32_t> size_of(covering.planes.size(), 0);
-  for (const std::uint32_t facet : covering.facet_of)
-    if (facet != kNone) ++size_of[facet];
-  std::vector<double> normals, normal(rank);
-  for (const FittedPlane& plane : covering.planes)
-    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
-  std::size_t taken = 0;
-  for (; taken < most; ++taken) {
-    const Boundedness found = find_open_direction(normals, rank);
-    if (found.bounded) break;
-    double most_facing = 0.0;
-    std::uint32_t best = kNone;
-    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-      if (complex.state[row] != SimplexState::kLive || size_of[covering.facet_of[row]] == 1) continue;
-      space.normal_of(complex.plane(SimplexId{row}), normal.data());
-      double facing = 0.0;
-      for (std::size_t k = 0; k < rank; ++k) facing += normal[k] * found.direction[k];
-      if (facing <= most_facing) continue;
-      most_facing = facing;
-      best = row;
-    }
-    if (best == kNone) break;  // all that face it are facets already
-    --size_of[covering.facet_of[best]];
-    covering.facet_of[best] = static_cast<std::uint32_t>(covering.planes.size());
-    size_of.push_back(1);
-    space.normal_of(complex.plane(SimplexId{best}), normal.data());
-    normals.insert(normals.end(), normal.begin(), normal.end());
-    covering.planes.push_back({normal, 0.0, 0.0});
-  }
-  return taken;
 }
 
 Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpace& space, const Frame& frame,

@@ -39,13 +39,6 @@ class FacetMembers {
 /// The facets that are no mere simplex with its own plane, with their planes in the frame.
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space);
 
-/// Makes the facets bound a region: where a direction is open, the simplex that faces it most becomes a facet
-/// of its own. Returns how many it took; they are few, since each closes a direction. With more than 1,000
-/// facets none of which is wide there is no open direction, and none is looked for. Cost  a search for an
-/// open direction (boundedness.h) for each, and a product for each simplex.
-std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
-                                  Covering& covering);
-
 /// The fewest facets that a hull can have: one for each facet of the frame's first simplex, whose normals
 /// bound a region, none empty. Every simplex goes where it lies highest. Shapes  coordinates: points x rank,
 /// in the frame.

@@ -55,13 +55,20 @@ std::vector<PointId> CertifiedGrowth::points_off_the_complex() {
   return rest;
 }
 
-/// Points so near the hull (or outside, after a limit) that only their distances will do.
+/// Points so near the hull (or outside, after a limit) that only their distances will do. The others stay
+/// well inside, however the hull grows.
 void CertifiedGrowth::list_left_out(const std::vector<LocatedPoint>& located) {
   double largest_gauge = 0.0;
   left_out_.clear();
+  if (proven_.empty()) proven_.assign(points_.rows, false);
   for (const LocatedPoint& point : located) {
     largest_gauge = std::max(largest_gauge, point.gauge);
-    if (point.gauge > -kWellInside) left_out_.push_back(point);
+    if (point.gauge > -kWellInside) {
+      left_out_.push_back(point);
+    } else {
+      proven_[point.point.value] = true;
+      ++proven_count_;
+    }
   }
   hull_.max_outside_gauge = largest_gauge;
   covered_gauge_ = 0.0;

@@ -2,6 +2,7 @@
 // which points are to be taken in.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "approx/approximation.h"
 #include "core/ids.h"
@@ -70,6 +71,24 @@ std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::ui
     found[i].dot = -HUGE_VAL;
   }
   find_furthest(left_out_tree(), normals, found);
+  return found;
+}
+
+/// Points that growth has left out, each with a simplex that it is above; not those that are above none.
+std::vector<LocatedPoint> Approximation::located(std::span<const PointId> left_out) const {
+  const SimplicialComplex& complex = growth_.work().complex;
+  std::vector<LocatedPoint> found;
+  for (const PointId point : left_out) {
+    const std::span y(growth_.coordinates() + std::size_t{point.value} * complex.rank, complex.rank);
+    LocatedPoint highest{point, SimplexId{}, 0.0};
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (complex.state[row] != SimplexState::kLive) continue;
+      const auto plane = complex.plane(SimplexId{row});
+      const double gauge = std::inner_product(plane.begin(), plane.end(), y.begin(), -1.0);
+      if (gauge > highest.gauge) highest = {point, SimplexId{row}, gauge};
+    }
+    if (highest.gauge > 0.0) found.push_back(highest);
+  }
   return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ndhull {
 namespace {
@@ -78,12 +79,23 @@ bool Approximation::search_outside(double width) {
   return true;
 }
 
-/// Growth for slabs of this width.
+/// Growth for slabs of this width; then it is known where the points left out are.
 void Approximation::grow_for_width(double outside_width, double slab) {
-  if (lengths_.outside_width > 0.0) {
+  if (lengths_.outside_width > 0.0 || outside_width == 0.0) {
     growth_.grow_to(outside_width, 0, HUGE_VAL);
-    return;
+  } else {
+    grow_in_stages(outside_width, slab);
   }
+  locate_left_out(outside_width);
+  for (int round = 0; round < kRounds && outside_width == 0.0 && !growth_.is_limited() && growth_.repair();
+       ++round) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
+    locate_left_out(outside_width);
+  }
+}
+
+/// Where simplices become many, points further outside are left out.
+void Approximation::grow_in_stages(double outside_width, double slab) {
   const GrowthWork& work = growth_.work();
   const auto simplices = [&] { return work.complex.row_count - work.free_count; };
   const auto has_paused = [&](std::uint64_t enough, double height) {
@@ -94,6 +106,39 @@ void Approximation::grow_for_width(double outside_width, double slab) {
   constexpr std::uint64_t kStep = kEnoughAtHalf / 16;
   while (simplices() < kManySimplices && growth_.furthest_height() > kHalf * slab)
     if (!has_paused(std::min<std::uint64_t>(kManySimplices, simplices() + kStep), HUGE_VAL)) return;
+}
+
+/// Nearly all points are vertices, so that the rest of them costs less than what they would be too far above.
+bool Approximation::leaves_out_hardly_any(double outside_width) const {
+  constexpr double kHardlyAny = 1.0 / 12.0;  // in parts of the vertices
+  return lengths_.outside_width == 0.0 && outside_width > 0.0 && has_left_out_ &&
+         space_->share_of_others() < kHardlyAny;
+}
+
+/// How far outside points are left out once one of them was too far above a simplex that no slab holds, and
+/// growth takes it in: less from some rounds on, and nothing in the last.
+double Approximation::less_outside(double outside_width, int round) const {
+  constexpr int kPatience = 4;
+  constexpr double kLess = 0.7;
+  if (lengths_.outside_width > 0.0) return outside_width;
+  if (leaves_out_hardly_any(outside_width) || round + 1 == kWidthRounds) return 0.0;
+  return round < kPatience ? outside_width : kLess * outside_width;
+}
+
+/// Puts back what was left out and is further outside than this.
+void Approximation::take_in(double outside_width) {
+  GrowthWork& work = growth_.work();
+  work.options.outside_width = outside_width;
+  std::vector<LocatedPoint> above;
+  for (LocatedPoint point : growth_.left_out()) {
+    const auto plane = work.complex.plane(point.simplex);
+    const double* y = growth_.coordinates() + std::size_t{point.point.value} * work.rank;
+    point.gauge = std::inner_product(plane.begin(), plane.end(), y, -1.0);
+    if (point.gauge > 4.0 * work.options.shift &&
+        height_above(work, point.simplex.value, point.gauge) > outside_width)
+      above.push_back(point);
+  }
+  growth_.put_back(above);
 }
 
 /// Is it asked for in a way that stars can answer, which have no early end?

@@ -1,0 +1,81 @@
+// Widths about as large as a hull is thin: few slabs hold all of it, and do not bound a region.
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/approximate/approximate_laws.h"
+#include "tests/hull/hull_support.h"
+
+namespace ndhull {
+namespace {
+
+/// Points of a family, each column times its scale.
+PointSet scaled_points(const FamilySize& shape, std::span<const double> scales) {
+  PointSet set = family_points(shape.family, shape.n, shape.d, 20261127);
+  for (std::size_t i = 0; i < set.coordinates.size(); ++i) set.coordinates[i] *= scales[i % shape.d];
+  return set;
+}
+
+struct ThinShape {
+  FamilySize shape;
+  std::vector<double> scales;
+};
+
+std::vector<ThinShape> thin_shapes() {
+  return {{{PointFamily::kSphere, 1000, 6}, {1.0, 1.0, 1.0, 1.0, 1.0, 0.01}},
+          {{PointFamily::kSphere, 2000, 5}, {1.0, 1.0, 1.0, 0.02, 0.01}},
+          {{PointFamily::kBall, 800, 6}, {1.0, 0.9, 0.8, 0.7, 0.02, 0.6}},
+          {{PointFamily::kSphere, 300, 7}, {1.0, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05}},
+          {{PointFamily::kGaussian, 400, 5}, {1.0, 0.01, 1.0, 1.0, 1.0}},
+          {{PointFamily::kSphere, 3000, 4}, {1.0, 1.0, 1.0, 0.01}}};
+}
+
+TEST(ThinHullLaw, WidthIsMetBeyondTheThickness) {
+  for (const ThinShape& thin : thin_shapes()) {
+    const PointSet set = scaled_points(thin.shape, thin.scales);
+    for (const double percent : {1.0, 2.0, 5.0}) {
+      SCOPED_TRACE(std::string(to_string(thin.shape.family)) + " " + std::to_string(thin.shape.d) + "-d, " +
+                   std::to_string(percent) + "%");
+      HullOptions options;
+      options.accuracy.width = {percent, true};
+      const Hull hull = hull_of(set, options);
+      EXPECT_EQ(hull.status, HullStatus::kComplete);
+      EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set));
+      expect_approximate_laws(hull, set.view());
+    }
+  }
+}
+
+// What closes the region are facets of the hull of all points, found at once: growth does not creep around
+// the rim, which would take as many rounds as there may be, and then be too wide.
+TEST(ThinHullLaw, FewRoundsCloseTheRegion) {
+  const ThinShape lens = thin_shapes().front();
+  const PointSet set = scaled_points(lens.shape, lens.scales);
+  HullOptions options;
+  options.accuracy.width = {2.0, true};
+  const Hull hull = hull_of(set, options), exact = hull_of(set, HullOptions());
+  EXPECT_LE(hull.statistics.repair_rounds, 10U);
+  EXPECT_LE(hull.facet_count(), 3 * hull.rank);
+  EXPECT_LT(10 * hull.simplex_count(), exact.simplex_count());
+}
+
+// Points that share planes: a facet that closes the region may be divided into other simplices.
+TEST(ThinHullLaw, WidthIsMetWherePointsSharePlanes) {
+  for (const double step : {0.05, 0.1, 0.25}) {
+    PointSet set = family_points(PointFamily::kBall, 3000, 5, 7);
+    for (std::size_t i = 0; i < set.coordinates.size(); ++i)
+      set.coordinates[i] = std::round(set.coordinates[i] / step) * step * (i % 5 == 4 ? 0.02 : 1.0);
+    for (const double percent : {1.0, 2.0, 4.0}) {
+      SCOPED_TRACE(std::to_string(step) + ", " + std::to_string(percent) + "%");
+      HullOptions options;
+      options.accuracy.width = {percent, true};
+      const Hull hull = hull_of(set, options);
+      EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set));
+      expect_approximate_laws(hull, set.view());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ndhull
