@@ -288,7 +288,7 @@ FacetClusters Approximation::run_width() {
     covering = cover_width(slab, std::move(slabs), may_grow ? &known : nullptr);
     if (covering.planes.empty()) return FacetClusters{};
     if (may_grow && !known.missing.empty()) {
-      growth_.put_back(located(known.missing));
+      take_in(known.missing, outside_width, slab);
       continue;
     }
     const TrueWidths widths = true_widths(covering);

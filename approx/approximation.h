@@ -78,6 +78,7 @@ class Approximation {
   bool leaves_out_hardly_any(double outside_width) const;
   double less_outside(double outside_width, int round) const;
   void take_in(double outside_width);
+  void take_in(std::span<const PointId> left_out, double outside_width, double slab);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet

@@ -74,20 +74,21 @@ std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::ui
   return found;
 }
 
-/// Points that growth has left out, each with a simplex that it is above; not those that are above none.
+/// Points that growth has left out, each with the simplex that it is highest above; not those that are above
+/// none by more than rounding.
 std::vector<LocatedPoint> Approximation::located(std::span<const PointId> left_out) const {
   const SimplicialComplex& complex = growth_.work().complex;
   std::vector<LocatedPoint> found;
   for (const PointId point : left_out) {
     const std::span y(growth_.coordinates() + std::size_t{point.value} * complex.rank, complex.rank);
-    LocatedPoint highest{point, SimplexId{}, 0.0};
+    LocatedPoint highest{point, SimplexId{}, 4.0 * growth_.work().options.shift};
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
       const auto plane = complex.plane(SimplexId{row});
       const double gauge = std::inner_product(plane.begin(), plane.end(), y.begin(), -1.0);
       if (gauge > highest.gauge) highest = {point, SimplexId{row}, gauge};
     }
-    if (highest.gauge > 0.0) found.push_back(highest);
+    if (highest.simplex.valid()) found.push_back(highest);
   }
   return found;
 }

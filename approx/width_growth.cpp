@@ -141,6 +141,17 @@ void Approximation::take_in(double outside_width) {
   growth_.put_back(above);
 }
 
+/// Takes in these points, however little they are outside: also where growth for slabs of this width would
+/// pause.
+void Approximation::take_in(std::span<const PointId> left_out, double outside_width, double slab) {
+  for (std::size_t round = 0; round <= left_out.size() && !growth_.is_limited(); ++round) {
+    const std::vector<LocatedPoint> above = located(left_out);
+    if (above.empty()) return;
+    growth_.put_back(above, slab);
+    grow_for_width(outside_width, slab);
+  }
+}
+
 /// Is it asked for in a way that stars can answer, which have no early end?
 bool Approximation::may_do_without_complex() const {
   const HullOptions& options = growth_.options();

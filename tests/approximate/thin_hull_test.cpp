@@ -60,6 +60,19 @@ TEST(ThinHullLaw, FewRoundsCloseTheRegion) {
   EXPECT_LT(10 * hull.simplex_count(), exact.simplex_count());
 }
 
+// Growth pauses where simplices become many and nothing is far outside: the facets that close the region have
+// to be grown all the same.
+TEST(ThinHullLaw, WidthIsMetWhereGrowthPauses) {
+  const PointSet set = scaled_points({PointFamily::kSphere, 960, 8},
+                                     std::vector<double>{0.023, 1.0, 1.0, 0.0235, 0.61, 1.0, 1.0, 1.0});
+  HullOptions options;
+  options.accuracy.width = {2.4, true};
+  const Hull hull = hull_of(set, options);
+  EXPECT_LE(hull.max_facet_width, 0.024 * extent_of(set));
+  EXPECT_GE(hull.simplex_count(), 150'000U);
+  EXPECT_EQ(hull.points_outside, 0U);
+}
+
 // Points that share planes: a facet that closes the region may be divided into other simplices.
 TEST(ThinHullLaw, WidthIsMetWherePointsSharePlanes) {
   for (const double step : {0.05, 0.1, 0.25}) {
