@@ -34,6 +34,15 @@ double default_width_cap(double outside_width, double centrum_radius, double lar
   return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);
 }
 
+void check_depths(const Accuracy& accuracy, const ResolvedAccuracy& lengths) {
+  constexpr double kLongest = 1e36;
+  const bool gathers = accuracy.facets > 0 || lengths.width > 0.0 || accuracy.merges_neighbours();
+  if (!gathers || lengths.largest_extent < kLongest) return;
+  throw Error(ErrorCode::kNotFinite,
+              "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
+              "coordinates by a power of two, or measure widths in the unit cube");
+}
+
 void check_squares(double largest_extent) {
   constexpr double kShortest = 1e-140, kLongest = 1e140;
   if (largest_extent > kShortest && largest_extent < kLongest) return;

@@ -59,6 +59,10 @@ struct ResolvedAccuracy {
 };
 ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
 
+/// Throws Error kNotFinite where simplices are gathered into facets and depths, which are kept in single
+/// precision, would not be finite.
+void check_depths(const Accuracy& accuracy, const ResolvedAccuracy& lengths);
+
 /// Throws Error kOutOfRange where squares and products of lengths would not be doubles.
 void check_squares(double largest_extent);
 

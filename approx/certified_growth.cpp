@@ -61,12 +61,27 @@ GrowthStop CertifiedGrowth::poll(std::uint64_t points_left, double furthest) {
   }
   tell(Phase::kGrowth, points_left, furthest);
   if (options_.stop.stop_requested()) return GrowthStop::kInterrupted;
+  if (undoes_most()) {
+    is_too_rough_ = true;
+    return GrowthStop::kInterrupted;
+  }
   // Once a point was shifted simplices will be merged, which takes memory.
   work_.options.most_table_rows = limits_.most_rows(work_, frame_.dimension, point_bytes());
   const std::uint64_t done = proven_count_ + work_.counters.insertions;
   const std::uint64_t to_prove =
       options_.wants_partial ? points_.rows - std::min<std::uint64_t>(points_.rows, done) : 0;
   return limits_.is_time_up(work_, ball_, to_prove) ? GrowthStop::kTimeLimit : GrowthStop::kNoOutsidePoints;
+}
+
+bool CertifiedGrowth::may_be_rougher() const {
+  constexpr double kLargestShift = 1e-8;
+  return options_.shift >= HullOptions().shift && options_.shift < kLargestShift;
+}
+
+/// Points that share planes exactly, as corners of a cube, have one in forty undone.
+bool CertifiedGrowth::undoes_most() const {
+  constexpr std::uint64_t kSome = 256;
+  return work_.counters.rejected > kSome + work_.counters.insertions && may_be_rougher();
 }
 
 /// The furthest point's height whenever the hull has grown by half. An earlier height is never exceeded: the
@@ -169,6 +184,10 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
     if (!repaired) break;
     ++hull_.statistics.repair_rounds;
   }
+  constexpr double kManyShifts = 1000.0;
+  const bool leaves_some_out =
+      work_.counters.set_aside > 0 && hull_.max_outside_gauge > kManyShifts * work_.options.shift;
+  if (hull_.status == HullStatus::kComplete && leaves_some_out && may_be_rougher()) is_too_rough_ = true;
   report_counters();
   return false;
 }

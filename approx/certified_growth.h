@@ -89,6 +89,10 @@ class CertifiedGrowth {
   /// Should what is there be the result, if it can be one? Then the status says so.
   bool is_late();
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
+  /// Are the points about as rough as the shift? Most insertions were undone, and growth has ended, or points
+  /// are left outside by far more than it: a larger shift will do. Never of one that is not the default or
+  /// more, nor of one so large that planes would no longer be told apart.
+  bool is_too_rough() const { return is_too_rough_; }
   /// Height of the furthest point that is still in an outside set; 0 without one.
   double furthest_height();
   /// Points that are no vertices and not well inside, each with the simplex it is above.
@@ -118,6 +122,8 @@ class CertifiedGrowth {
   void start();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);
+  bool undoes_most() const;
+  bool may_be_rougher() const;
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
   std::uint64_t point_bytes() const;
   void tell(Phase phase, std::uint64_t points_left, double furthest) const {
@@ -144,7 +150,7 @@ class CertifiedGrowth {
   HullBall ball_;
   WorkLimits limits_;
   std::optional<GrownHull> grown_;  // until it has started
-  bool has_started_ = false, grows_from_some_ = false;
+  bool has_started_ = false, grows_from_some_ = false, is_too_rough_ = false;
   std::vector<bool> certificate_wanted_;
   KnownHighest known_highest_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early

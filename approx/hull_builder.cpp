@@ -77,9 +77,12 @@ class HullBuilder {
       make_segment();
     } else if (is_exact) {
       if (grow_or_describe()) return std::move(hull_);
+      if (growth_->is_too_rough()) return with_larger_shift();
       if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
     } else {
-      if (!approximate(factor)) return without_complex();
+      const bool has_room = approximate(factor);
+      if (growth_->is_too_rough()) return with_larger_shift();
+      if (!has_room) return again(options_, true);  // may end as before
       if (star_hull_) {
         adopt(std::move(*star_hull_));
         return std::move(hull_);
@@ -124,19 +127,11 @@ class HullBuilder {
   }
 
   /// Grows as far as the accuracy asks for and finds the facets. False: memory has ended growth, and there is
-  /// another way.
+  /// another way: without the complex there is room for rows of vertices.
   bool approximate(const std::vector<double>& factor) {
     const Clock::time_point begin = Clock::now();
     const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
-    constexpr double kLongest = 1e36;  // depths are kept in single precision
-    const Accuracy& accuracy = options_.accuracy;
-    const bool gathers = accuracy.facets > 0 || lengths.width > 0.0 || accuracy.merges_neighbours();
-    if (gathers && !(lengths.largest_extent < kLongest)) {
-      throw Error(
-          ErrorCode::kNotFinite,
-          "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
-          "coordinates by a power of two, or measure widths in the unit cube");
-    }
+    check_depths(options_.accuracy, lengths);
     check_squares(lengths.largest_extent);
     Approximation approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_,
                                 has_run_out_before_);
@@ -194,18 +189,23 @@ class HullBuilder {
     hull_.is_approximate = true;
   }
 
-  /// So few of the exact hull's planes bound no region; others do.
-  Hull for_width_instead() {
+  /// From the beginning.
+  Hull again(const HullOptions& options, bool has_run_out = false) {
     growth_.reset();
-    HullOptions options = options_;
-    options.accuracy.objective = FacetObjective::kWidth;
-    return HullBuilder(points_, options, start_, input_bytes_).run();
+    return HullBuilder(points_, options, start_, input_bytes_, has_run_out).run();
   }
 
-  /// From the beginning: the complex has the memory that rows of vertices need. It may end as before.
-  Hull without_complex() {
-    growth_.reset();
-    return HullBuilder(points_, options_, start_, input_bytes_, true).run();
+  /// So few of the exact hull's planes bound no region; others do.
+  Hull for_width_instead() {
+    HullOptions options = options_;
+    options.accuracy.objective = FacetObjective::kWidth;
+    return again(options);
+  }
+
+  Hull with_larger_shift() {
+    HullOptions options = options_;
+    options.shift *= 10.0;
+    return again(options);
   }
 
   std::vector<bool> corners() { return find_corners(growth_->work()); }
