@@ -172,7 +172,7 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
       report_counters();
       return true;
     }
-    if (hull_.status != HullStatus::kComplete && !options_.wants_partial) break;
+    if (is_too_rough_ || (hull_.status != HullStatus::kComplete && !options_.wants_partial)) break;
     phase_start = Clock::now();
     tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =

@@ -109,10 +109,11 @@ void Approximation::grow_in_stages(double outside_width, double slab) {
 }
 
 /// Nearly all points are vertices, so that the rest of them costs less than what they would be too far above.
+/// Not where simplices are limited: what is there fits.
 bool Approximation::leaves_out_hardly_any(double outside_width) const {
   constexpr double kHardlyAny = 1.0 / 12.0;  // in parts of the vertices
   return lengths_.outside_width == 0.0 && outside_width > 0.0 && has_left_out_ &&
-         space_->share_of_others() < kHardlyAny;
+         growth_.options().limits.max_facets == 0 && space_->share_of_others() < kHardlyAny;
 }
 
 /// How far outside points are left out once one of them was too far above a simplex that no slab holds, and
