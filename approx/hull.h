@@ -70,8 +70,10 @@ struct HullOptions {
   bool unit_cube = false;  ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
-  double shift = 1e-12;    ///< [ratio] growth's smallest inward shift, see GrowthOptions::shift
-  unsigned threads = 0;    ///< for the certificate; 0: all cores. The result does not depend on it.
+  /// [ratio] growth's smallest inward shift, see GrowthOptions::shift; ten times as large, and again, where
+  /// data turn out to be about as rough (core/DESIGN.md), unless it is given below the default.
+  double shift = 1e-12;
+  unsigned threads = 0;  ///< for the certificate; 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
