@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "approx/length_unit.h"
+#include "approx/geometry/length_unit.h"
 #include "core/frame.h"
 
 namespace ndhull {

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "approx/accuracy.h"
-#include "approx/facet_layout.h"
-#include "approx/facet_lists.h"
-#include "approx/later_areas.h"
-#include "approx/later_simplices.h"
-#include "approx/length_unit.h"
+#include "approx/facets/facet_layout.h"
+#include "approx/facets/facet_lists.h"
+#include "approx/facets/later_areas.h"
+#include "approx/facets/later_simplices.h"
+#include "approx/geometry/length_unit.h"
 #include "core/dimension_switch.h"
 #include "core/huge_array.h"
 #include "core/ids.h"
@@ -61,8 +61,8 @@ struct HullOptions {
   /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
   /// the planes are wanted.
   bool certifies_planes = true;
-  /// Simplices will be asked for: the hull is not looked for by whole facets (core/double_description.h), nor
-  /// without its complex (star_hull.h).
+  /// Simplices will be asked for: the hull is not looked for by whole facets
+  /// (core/whole_facets/double_description.h), nor without its complex (star_hull.h).
   bool wants_simplices = false;
   /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
   /// once.

@@ -4,21 +4,21 @@
 #include <cmath>
 #include <numeric>
 
-#include "approx/approximation.h"
-#include "approx/certified_growth.h"
-#include "approx/coplanar_merge.h"
-#include "approx/described_hull.h"
-#include "approx/exact_facets.h"
-#include "approx/facet_layout.h"
-#include "approx/facet_table.h"
-#include "approx/frame_planes.h"
+#include "approx/facets/coplanar_merge.h"
+#include "approx/facets/described_hull.h"
+#include "approx/facets/exact_facets.h"
+#include "approx/facets/facet_layout.h"
+#include "approx/facets/facet_table.h"
+#include "approx/facets/pulled_simplices.h"
+#include "approx/facets/regrown_simplices.h"
+#include "approx/geometry/frame_planes.h"
+#include "approx/growth/certified_growth.h"
 #include "approx/hull.h"
-#include "approx/pulled_simplices.h"
-#include "approx/regrown_simplices.h"
-#include "approx/volume_cover.h"
+#include "approx/trade/approximation.h"
+#include "approx/trade/volume_cover.h"
 #include "core/error.h"
 #include "core/frame.h"
-#include "core/growth.h"
+#include "core/growth/growth.h"
 #include "core/stopwatch.h"
 
 namespace ndhull {

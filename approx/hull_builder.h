@@ -1,7 +1,7 @@
 // The hull of points that are all looked at: steps 1 to 5 of the driver (convex_hull.cpp).
 #pragma once
 
-#include "approx/begun_hull.h"
+#include "approx/growth/begun_hull.h"
 #include "approx/hull.h"
 #include "core/points.h"
 #include "core/stopwatch.h"

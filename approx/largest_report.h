@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "approx/largest_facets.h"
-#include "approx/plane_check.h"
+#include "approx/planes/plane_check.h"
+#include "approx/rays/largest_facets.h"
 #include "approx/report.h"
 
 namespace ndhull {

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "approx/facet_selection.h"
-#include "approx/outer_distance.h"
-#include "approx/outer_volume.h"
+#include "approx/polytope/outer_volume.h"
 #include "approx/report_json.h"
-#include "approx/verify.h"
+#include "approx/selection/facet_selection.h"
+#include "approx/selection/outer_distance.h"
+#include "approx/verify/verify.h"
 
 namespace ndhull {
 namespace {

@@ -21,8 +21,8 @@
 #include "bench/measure_options.h"
 #include "bench/run_record.h"
 #include "core/error.h"
-#include "tools/byte_count.h"
-#include "tools/point_extent.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/view/point_extent.h"
 
 namespace ndhull {
 namespace {

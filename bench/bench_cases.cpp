@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "tests/support/named_polytopes.h"
-#include "tools/point_reader.h"
-#include "tools/rbox.h"
+#include "tools/io/point_reader.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

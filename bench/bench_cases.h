@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/point_set.h"
+#include "tools/points/point_set.h"
 
 namespace CLI {
 class App;

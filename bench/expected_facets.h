@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 

@@ -18,7 +18,7 @@
 #include "bench/machine.h"
 #include "core/error.h"
 #include "core/portable_random.h"
-#include "tools/text_source.h"
+#include "tools/io/text_source.h"
 
 namespace ndhull {
 namespace {

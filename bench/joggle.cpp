@@ -19,7 +19,7 @@
 #include "bench/commands.h"
 #include "bench/machine.h"
 #include "core/error.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -12,7 +12,7 @@
 #include "bench/commands.h"
 #include "bench/run_csv.h"
 #include "core/error.h"
-#include "tools/byte_count.h"
+#include "tools/command_line/byte_count.h"
 
 namespace ndhull {
 namespace {

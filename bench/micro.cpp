@@ -11,7 +11,7 @@
 #include "approx/hull.h"
 #include "bench/commands.h"
 #include "bench/option_set.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -1,4 +1,4 @@
-#include "approx/outer_volume.h"
+#include "approx/polytope/outer_volume.h"
 #include "bench/hull_run.h"
 
 namespace ndhull {

@@ -10,13 +10,13 @@
 #include <memory>
 #include <string>
 
-#include "approx/extreme_points.h"
 #include "approx/hull.h"
-#include "approx/largest_facets.h"
+#include "approx/rays/extreme_points.h"
+#include "approx/rays/largest_facets.h"
 #include "bench/commands.h"
 #include "bench/machine.h"
 #include "bench/sample.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -10,7 +10,7 @@
 #include "bench/readme_tables.h"
 #include "bench/result_folder.h"
 #include "core/error.h"
-#include "tools/output_file.h"
+#include "tools/io/output_file.h"
 
 namespace ndhull {
 namespace {

@@ -12,7 +12,7 @@
 #include "bench/report_page.h"
 #include "bench/result_folder.h"
 #include "core/error.h"
-#include "tools/output_file.h"
+#include "tools/io/output_file.h"
 
 namespace ndhull {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "tools/output_file.h"
+#include "tools/io/output_file.h"
 
 namespace ndhull {
 namespace {

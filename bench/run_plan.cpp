@@ -12,9 +12,9 @@
 #include "bench/hull_run.h"
 #include "bench/table.h"
 #include "core/error.h"
-#include "tools/generate.h"
-#include "tools/point_extent.h"
-#include "tools/point_reader.h"
+#include "tools/io/point_reader.h"
+#include "tools/points/generate.h"
+#include "tools/view/point_extent.h"
 
 namespace ndhull {
 namespace {

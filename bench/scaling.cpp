@@ -14,7 +14,7 @@
 #include "bench/run_plan.h"
 #include "bench/scaling.h"
 #include "bench/scaling_tables.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -9,14 +9,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "approx/facet_selection.h"
-#include "approx/halfspace_intersection.h"
-#include "approx/outer_volume.h"
-#include "approx/verify.h"
+#include "approx/polytope/halfspace_intersection.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/selection/facet_selection.h"
+#include "approx/verify/verify.h"
 #include "bench/commands.h"
 #include "bench/machine.h"
 #include "core/error.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -14,7 +14,7 @@
 #include "bench/run_plan.h"
 #include "bench/sweep.h"
 #include "core/error.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -20,7 +20,7 @@
 #include "bench/sample.h"
 #include "bench/table.h"
 #include "core/error.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/highest_dots.h"
 #include "core/prefetch.h"
+#include "core/search/highest_dots.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

@@ -18,7 +18,7 @@ namespace ndhull {
 ///         (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5).
 /// Cost    facets x points x dimension fused multiply-adds, at close to the machine's peak. Where the facets'
 /// own
-///         vertices are known, core/highest_dots.h needs less.
+///         vertices are known, core/search/highest_dots.h needs less.
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot);
 
@@ -32,8 +32,8 @@ void own_dots(const SimplicialComplex& complex, std::size_t first, std::size_t d
               std::span<const std::uint32_t> row_of_point, std::span<double> low, std::span<double> high);
 
 /// Smallest and largest dot product of each normal with the points in its row of `lists`: rows of `points`,
-/// at least one; and how many are within kCloseProducts (core/highest_dots.h) of the largest. Shapes and
-/// error as above.
+/// at least one; and how many are within kCloseProducts (core/search/highest_dots.h) of the largest. Shapes
+/// and error as above.
 void listed_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                  const IdRows& lists, std::span<double> low, std::span<double> high,
                  std::span<std::uint32_t> close);

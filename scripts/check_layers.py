@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """House rules a compiler does not check; prints every place that breaks one and exits 1 if there is any.
 
-Layers      core includes nothing of approx, tools; approx nothing of tools; none of them tests or bench.
+Layers      core includes nothing of approx, tools; approx nothing of tools; none of them tests or bench. Folders inside
+            them include each other in no circle, nor by way of the files that stand beside them.
 Libraries   CGAL only in core/exact_orientation.cpp, and there only headers under the LGPL; GLM only in
-            approx/projection.*; no streams in core and approx: they have no output. (Tests and bench are free.)
+            approx/drawing/projection.*; no streams in core and approx: they have no output. (Tests and bench are free.)
 Sources     every .cpp is named in a CMakeLists.txt of its folder or one above; no file has more than 400 lines.
 Headers     a file that uses a type of one of our headers includes it, itself or through what it includes: sources that are
             compiled as one unit would hide that. For the same reason no file uses a function or a constant that another
@@ -28,7 +29,7 @@ CGAL_FILE = "core/exact_orientation.cpp"
 # NewKernel_d and Number_types are LGPL; Triangulation, QP_solver, Spatial_searching and most others are GPL.
 CGAL_HEADERS = {"CGAL/Epick_d.h", "CGAL/Epeck_d.h", "CGAL/Gmpq.h", "CGAL/Gmpz.h", "CGAL/Gmpzf.h", "CGAL/Mpzf.h",
                 "CGAL/Interval_nt.h", "CGAL/determinant.h"}
-GLM_FILES = re.compile(r"approx/projection\.(cpp|h)$")
+GLM_FILES = re.compile(r"approx/drawing/projection\.(cpp|h)$")
 STREAMS = {"iostream", "fstream", "ostream", "istream"}
 # Written in two halves, so that this file passes its own check.
 OPEN_NOTE = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b(?!\(#\d+\))")
@@ -52,7 +53,7 @@ def check_includes(name, line_number, header):
     if header.startswith("CGAL/") and header not in CGAL_HEADERS:
         yield f"{where}: {header} is not among the headers known to be LGPL"
     if header.startswith("glm/") and not GLM_FILES.match(name):
-        yield f"{where}: GLM belongs in approx/projection.*"
+        yield f"{where}: GLM belongs in approx/drawing/projection.*"
     if header in STREAMS and top != "tools":
         yield f"{where}: {top} has no input and output, <{header}> is not for it"
 
@@ -125,6 +126,26 @@ class Types:
                     yield f"{name}: uses {word} and does not include {header}"
 
 
+def room_of(name):
+    """The folder inside core, approx or tools; of a file that stands in these itself, it and its header."""
+    parts = name.split("/")
+    return "/".join(parts[:2]) if len(parts) > 2 else name.rsplit(".", 1)[0]
+
+
+def check_circles(includes):
+    below = {}
+    for name, headers in includes.items():
+        if name.split("/")[0] in MAY_NOT_INCLUDE:
+            inside = {room_of(header) for header in headers if header.split("/")[0] == name.split("/")[0]}
+            below.setdefault(room_of(name), set()).update(inside - {room_of(name)})
+    while ground := {room for room, rooms in below.items() if not rooms & below.keys()}:
+        below = {room: rooms for room, rooms in below.items() if room not in ground}
+    while roof := below.keys() - set().union(*below.values()):
+        below = {room: rooms for room, rooms in below.items() if room not in roof}
+    if below.keys() & {room_of(name) for name in includes if name.count("/") > 1}:
+        yield f"{', '.join(sorted(below))}: include each other in a circle"
+
+
 class OwnNames:
     """Functions and constants in the unnamed namespace of a source, for nobody else."""
 
@@ -165,6 +186,7 @@ def main():
             findings.extend(check_is_built(path))
     types = Types(path for path in files if path.suffix != ".py")
     findings.extend(types.check())
+    findings.extend(check_circles(types.includes))
     findings.extend(OwnNames(types).check())
     print("\n".join(findings) if findings else f"check_layers: {len(files)} files, nothing found")
     return 1 if findings else 0

@@ -13,7 +13,7 @@ CLEAN = {
     "core/growth.cpp": '#include "core/growth.h"\n// ep' 's in a comment is prose\n',
     "core/growth.h": "int steps();\n",
     "core/exact_orientation.cpp": "#include <CGAL/Epick_d.h>\n",
-    "approx/projection.h": '#include <glm/glm.hpp>\n#include "core/growth.h"\n',
+    "approx/drawing/projection.h": '#include <glm/glm.hpp>\n#include "core/growth.h"\n',
 }
 # What is added to the clean tree, and a piece of the one line that must be reported.
 BROKEN = [
@@ -32,6 +32,10 @@ BROKEN = [
     ({"core/CMakeLists.txt": CLEAN["core/CMakeLists.txt"] + "(a.cpp)",
       "core/a.cpp": "namespace {\nconstexpr int kMany = 3;\n}\n",
       "core/growth.cpp": "int steps() { return kMany; }\n"}, "core/growth.cpp: uses kMany of core/a.cpp"),
+    ({"core/one/a.h": '#include "core/two/b.h"\n', "core/two/b.h": "\n", "core/c.h": '#include "core/one/a.h"\n',
+      "core/two/d.h": '#include "core/one/e.h"\n', "core/one/e.h": "\n"}, "core/one, core/two: include each other in a circle"),
+    ({"core/one/a.h": '#include "core/b.h"\n', "core/b.h": '#include "core/one/c.h"\n', "core/one/c.h": "\n"},
+     "core/b, core/one: include each other in a circle"),
     ({"core/a.h": "\n" * 401}, "401 lines"),
     ({"core/a.h": "double area_ep" "s = 0;\n"}, "say roundoff"),
     ({"core/a.h": "using  namespace std;\n"}, "no using namespace std"),
@@ -59,6 +63,9 @@ def main():
     reached = {"core/a.h": "class Hull {\n};\n", "core/b.h": '#include "core/a.h"\n',
                "core/c.h": '#include "core/b.h"\nHull hull;\n', "core/d.h": "class Hull;\nHull* hull;\n"}  # fmt: skip
     code, lines = findings(CLEAN | reached)
+    assert code == 0, lines
+    pair = {"core/a.h": '#include "core/b.h"\n', "core/b.h": '#include "core/a.h"\n', "core/one/c.h": '#include "core/a.h"\n'}
+    code, lines = findings(CLEAN | pair)
     assert code == 0, lines
     own = {"core/CMakeLists.txt": CLEAN["core/CMakeLists.txt"] + "(a.cpp b.cpp)",
            "core/a.cpp": "namespace {\nconstexpr int kMany = 3;\nint twice(int x) {\n  return 2 * x;\n}\n}\n",

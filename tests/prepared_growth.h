@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/frame.h"
-#include "core/growth.h"
+#include "core/growth/growth.h"
 #include "core/points.h"
 
 namespace ndhull {

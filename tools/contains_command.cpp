@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "approx/contains.h"
+#include "approx/planes/contains.h"
 #include "core/error.h"
-#include "tools/command_options.h"
-#include "tools/file_bytes.h"
-#include "tools/halfspace_reader.h"
-#include "tools/named_outputs.h"
-#include "tools/npy_header.h"
-#include "tools/output_file.h"
-#include "tools/point_reader.h"
+#include "tools/command_line/command_options.h"
+#include "tools/command_line/named_outputs.h"
+#include "tools/io/file_bytes.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/npy_header.h"
+#include "tools/io/output_file.h"
+#include "tools/io/point_reader.h"
 
 namespace ndhull {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "tools/command_options.h"
+#include "tools/command_line/command_options.h"
 #include "tools/extreme_run.h"
 
 namespace ndhull {

@@ -11,24 +11,24 @@
 #include <optional>
 #include <vector>
 
-#include "approx/kept_points.h"
-#include "approx/plane_check.h"
+#include "approx/planes/plane_check.h"
+#include "approx/reduction/kept_points.h"
 #include "approx/report.h"
 #include "core/error.h"
 #include "core/plane_value.h"
 #include "core/stopwatch.h"
-#include "tools/byte_count.h"
-#include "tools/exit_code.h"
-#include "tools/file_bytes.h"
-#include "tools/index_writer.h"
-#include "tools/interrupt.h"
-#include "tools/named_outputs.h"
-#include "tools/npy_header.h"
-#include "tools/output_file.h"
-#include "tools/plane_writer.h"
-#include "tools/point_reader.h"
-#include "tools/progress_line.h"
-#include "tools/summary_text.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/command_line/exit_code.h"
+#include "tools/command_line/interrupt.h"
+#include "tools/command_line/named_outputs.h"
+#include "tools/command_line/progress_line.h"
+#include "tools/command_line/summary_text.h"
+#include "tools/io/file_bytes.h"
+#include "tools/io/index_writer.h"
+#include "tools/io/npy_header.h"
+#include "tools/io/output_file.h"
+#include "tools/io/plane_writer.h"
+#include "tools/io/point_reader.h"
 
 namespace ndhull {
 namespace {

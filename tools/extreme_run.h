@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "approx/extreme_points.h"
-#include "tools/column_choice.h"
+#include "approx/rays/extreme_points.h"
+#include "tools/io/column_choice.h"
 
 namespace ndhull {
 

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "core/error.h"
-#include "tools/command_options.h"
-#include "tools/hull_options.h"
-#include "tools/qhull_formats.h"
-#include "tools/selection_options.h"
+#include "tools/command_line/command_options.h"
+#include "tools/command_line/hull_options.h"
+#include "tools/command_line/selection_options.h"
+#include "tools/io/qhull_formats.h"
 
 namespace ndhull {
 namespace {

@@ -7,10 +7,10 @@
 #include <new>
 #include <utility>
 
-#include "approx/plane_check.h"
-#include "approx/written_planes.h"
+#include "approx/planes/plane_check.h"
+#include "approx/planes/written_planes.h"
 #include "core/error.h"
-#include "tools/exit_code.h"
+#include "tools/command_line/exit_code.h"
 
 namespace ndhull {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "approx/sharded_hull.h"
-#include "approx/verify.h"
-#include "tools/point_reader.h"
-#include "tools/process_group.h"
-#include "tools/shard_files.h"
+#include "approx/verify/verify.h"
+#include "tools/io/point_reader.h"
+#include "tools/processes/process_group.h"
+#include "tools/processes/shard_files.h"
 
 namespace ndhull {
 

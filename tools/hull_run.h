@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "approx/facet_selection.h"
 #include "approx/hull.h"
-#include "approx/verify.h"
-#include "approx/written_planes.h"
-#include "tools/column_choice.h"
+#include "approx/planes/written_planes.h"
+#include "approx/selection/facet_selection.h"
+#include "approx/verify/verify.h"
+#include "tools/io/column_choice.h"
 
 namespace ndhull {
 

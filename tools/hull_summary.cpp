@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "approx/facet_selection.h"
 #include "approx/hull.h"
-#include "approx/outer_distance.h"
-#include "approx/outer_volume.h"
-#include "approx/verify.h"
-#include "tools/byte_count.h"
-#include "tools/summary_text.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/selection/facet_selection.h"
+#include "approx/selection/outer_distance.h"
+#include "approx/verify/verify.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/command_line/summary_text.h"
 
 namespace ndhull {
 namespace {

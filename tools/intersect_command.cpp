@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "tools/byte_count.h"
-#include "tools/command_options.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/command_line/command_options.h"
 #include "tools/intersect_run.h"
-#include "tools/text_source.h"
+#include "tools/io/text_source.h"
 
 namespace ndhull {
 namespace {

@@ -9,14 +9,14 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "tools/halfspace_reader.h"
-#include "tools/interrupt.h"
+#include "tools/command_line/interrupt.h"
+#include "tools/command_line/machine_memory.h"
+#include "tools/command_line/named_outputs.h"
+#include "tools/command_line/progress_line.h"
 #include "tools/intersection_writer.h"
-#include "tools/machine_memory.h"
-#include "tools/named_outputs.h"
-#include "tools/output_file.h"
-#include "tools/point_writer.h"
-#include "tools/progress_line.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/output_file.h"
+#include "tools/io/point_writer.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "approx/halfspace_intersection.h"
+#include "approx/polytope/halfspace_intersection.h"
 
 namespace ndhull {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "approx/halfspace_intersection.h"
-#include "tools/output_file.h"
+#include "approx/polytope/halfspace_intersection.h"
+#include "tools/io/output_file.h"
 
 namespace ndhull {
 

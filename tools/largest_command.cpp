@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "tools/command_options.h"
+#include "tools/command_line/command_options.h"
 #include "tools/largest_run.h"
 
 namespace ndhull {

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "approx/largest_facets.h"
 #include "approx/largest_report.h"
-#include "approx/written_planes.h"
-#include "tools/column_choice.h"
+#include "approx/planes/written_planes.h"
+#include "approx/rays/largest_facets.h"
+#include "tools/io/column_choice.h"
 
 namespace ndhull {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "tools/byte_count.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/command_line/summary_text.h"
 #include "tools/largest_run.h"
-#include "tools/summary_text.h"
 
 namespace ndhull {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "tools/exit_code.h"
+#include "tools/command_line/exit_code.h"
 #include "tools/program.h"
 
 namespace {

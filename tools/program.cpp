@@ -12,18 +12,18 @@
 
 #include "approx/report.h"
 #include "core/error.h"
-#include "tools/command_options.h"
+#include "tools/command_line/command_options.h"
+#include "tools/command_line/exit_code.h"
 #include "tools/contains_command.h"
-#include "tools/exit_code.h"
 #include "tools/extreme_command.h"
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
+#include "tools/io/output_file.h"
 #include "tools/largest_command.h"
-#include "tools/output_file.h"
-#include "tools/point_set_commands.h"
-#include "tools/qhull_command.h"
+#include "tools/points/point_set_commands.h"
+#include "tools/qhull/qhull_command.h"
 #include "tools/verify_command.h"
-#include "tools/view_command.h"
+#include "tools/view/view_command.h"
 
 namespace ndhull {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "approx/work_end.h"
 #include "core/error.h"
-#include "tools/output_file.h"
-#include "tools/point_extent.h"
-#include "tools/view_scale.h"
+#include "tools/io/output_file.h"
+#include "tools/view/point_extent.h"
+#include "tools/view/view_scale.h"
 
 namespace ndhull {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "core/error.h"
-#include "tools/command_options.h"
-#include "tools/halfspace_reader.h"
-#include "tools/output_file.h"
-#include "tools/point_reader.h"
+#include "tools/command_line/command_options.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/output_file.h"
+#include "tools/io/point_reader.h"
 
 namespace ndhull {
 

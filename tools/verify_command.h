@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "approx/plane_check.h"
-#include "tools/column_choice.h"
+#include "approx/planes/plane_check.h"
+#include "tools/io/column_choice.h"
 
 namespace ndhull {
 

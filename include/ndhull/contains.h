@@ -2,4 +2,4 @@
 // ndhull::distances_to_planes.
 #pragma once
 
-#include "approx/contains.h"  // IWYU pragma: export
+#include "approx/planes/contains.h"  // IWYU pragma: export

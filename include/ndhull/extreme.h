@@ -2,5 +2,5 @@
 // ndhull::extreme_points, ndhull::keep_points.
 #pragma once
 
-#include "approx/extreme_points.h"  // IWYU pragma: export
-#include "approx/kept_points.h"     // IWYU pragma: export
+#include "approx/rays/extreme_points.h"    // IWYU pragma: export
+#include "approx/reduction/kept_points.h"  // IWYU pragma: export

@@ -1,4 +1,4 @@
 // What halfspaces have in common: #include <ndhull/intersection.h>, call ndhull::intersect_halfspaces.
 #pragma once
 
-#include "approx/halfspace_intersection.h"  // IWYU pragma: export
+#include "approx/polytope/halfspace_intersection.h"  // IWYU pragma: export

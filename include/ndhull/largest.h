@@ -2,4 +2,4 @@
 // ndhull::largest_facets.
 #pragma once
 
-#include "approx/largest_facets.h"  // IWYU pragma: export
+#include "approx/rays/largest_facets.h"  // IWYU pragma: export

@@ -2,4 +2,4 @@
 // ndhull::WrittenPlanes.
 #pragma once
 
-#include "approx/written_planes.h"  // IWYU pragma: export
+#include "approx/planes/written_planes.h"  // IWYU pragma: export

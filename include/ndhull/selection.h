@@ -2,5 +2,5 @@
 // ndhull::select_facets, ndhull::outer_volume.
 #pragma once
 
-#include "approx/facet_selection.h"  // IWYU pragma: export
-#include "approx/outer_volume.h"     // IWYU pragma: export
+#include "approx/polytope/outer_volume.h"      // IWYU pragma: export
+#include "approx/selection/facet_selection.h"  // IWYU pragma: export

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "approx/boundedness.h"
-#include "approx/verify.h"
+#include "approx/geometry/boundedness.h"
+#include "approx/verify/verify.h"
 #include "tests/hull/hull_support.h"
 
 namespace ndhull {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "approx/exact_facets.h"
+#include "approx/facets/exact_facets.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {

@@ -1,6 +1,6 @@
 // Facets that exchange simplices: none gets lost, none gets wider than the widest was, seen from all points
 // by plain loops.
-#include "approx/facet_balance.h"
+#include "approx/trade/facet_balance.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "approx/cluster_merge.h"
-#include "approx/facet_parts.h"
-#include "approx/slab_cover.h"
+#include "approx/slabs/facet_parts.h"
+#include "approx/slabs/slab_cover.h"
+#include "approx/trade/cluster_merge.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "approx/dual_facets.h"
-#include "approx/exact_facets.h"
-#include "approx/facet_layout.h"
-#include "approx/slab_partition.h"
+#include "approx/facets/exact_facets.h"
+#include "approx/facets/facet_layout.h"
+#include "approx/slabs/dual_facets.h"
+#include "approx/slabs/slab_partition.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "approx/dual_facets.h"
+#include "approx/slabs/dual_facets.h"
 #include "core/ids.h"
 #include "tests/approximate/grown_sphere.h"
 

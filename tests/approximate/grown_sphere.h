@@ -9,12 +9,12 @@
 #include <optional>
 #include <vector>
 
-#include "approx/covering.h"
-#include "approx/width_space.h"
-#include "core/growth.h"
+#include "approx/slabs/covering.h"
+#include "approx/slabs/width_space.h"
+#include "core/growth/growth.h"
 #include "tests/hull/hull_support.h"
 #include "tests/prepared_growth.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 

@@ -1,6 +1,6 @@
 // What facets of several simplices are told of their vertices, row by row with one thread and facet by facet
 // with two, beside a plain look at each simplex.
-#include "approx/listed_facets.h"
+#include "approx/facets/listed_facets.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "approx/dual_facets.h"
-#include "approx/exact_facets.h"
-#include "approx/seed_classes.h"
-#include "approx/slab_partition.h"
+#include "approx/facets/exact_facets.h"
+#include "approx/slabs/dual_facets.h"
+#include "approx/slabs/seed_classes.h"
+#include "approx/slabs/slab_partition.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {

@@ -1,9 +1,9 @@
 // Merging under W, C and A: inputs on which Qhull's own merging ends without an answer, and the cap.
 #include <cmath>
 
-#include "approx/verify.h"
+#include "approx/verify/verify.h"
 #include "tests/hull/hull_support.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

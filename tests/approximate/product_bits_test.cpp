@@ -1,5 +1,5 @@
 // Products in single precision, beside extended precision.
-#include "approx/product_bits_kernel.h"
+#include "approx/slabs/product_bits_kernel.h"
 
 #include <gtest/gtest.h>
 

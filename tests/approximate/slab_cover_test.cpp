@@ -1,6 +1,6 @@
 // Coverings by slabs: each simplex in one facet, none of them deeper below its plane than the width, seen
 // from all points by plain loops.
-#include "approx/slab_cover.h"
+#include "approx/slabs/slab_cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Disjoint slabs, and what joins along segments between planes, seen from all points by plain loops.
-#include "approx/slab_partition.h"
+#include "approx/slabs/slab_partition.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "approx/segment_merge.h"
+#include "approx/slabs/segment_merge.h"
 #include "tests/approximate/facet_members.h"
 #include "tests/approximate/grown_sphere.h"
 

@@ -1,5 +1,5 @@
 // Slabs of a few simplices, seen from all points and vertices by plain loops.
-#include "approx/thin_slabs.h"
+#include "approx/slabs/thin_slabs.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "approx/boundedness.h"
-#include "approx/exact_facets.h"
-#include "approx/slab_partition.h"
+#include "approx/facets/exact_facets.h"
+#include "approx/geometry/boundedness.h"
+#include "approx/slabs/slab_partition.h"
 #include "tests/approximate/facet_members.h"
 #include "tests/approximate/grown_sphere.h"
 

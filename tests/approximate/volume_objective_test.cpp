@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "approx/outer_volume.h"
-#include "approx/verify.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/verify/verify.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

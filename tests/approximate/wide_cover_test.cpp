@@ -1,5 +1,5 @@
 // Coverings by slabs that hold many simplices, seen from all simplices and all points by plain loops.
-#include "approx/wide_cover.h"
+#include "approx/slabs/wide_cover.h"
 
 #include <gtest/gtest.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -11,8 +11,8 @@
 #include <random>
 #include <vector>
 
-#include "approx/slab_bits_kernel.h"
-#include "approx/slab_choice.h"
+#include "approx/slabs/slab_bits_kernel.h"
+#include "approx/slabs/slab_choice.h"
 #include "tests/approximate/grown_sphere.h"
 
 namespace ndhull {

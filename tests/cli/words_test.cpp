@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "tools/byte_count.h"
+#include "tools/command_line/byte_count.h"
+#include "tools/command_line/progress_line.h"
 #include "tools/hull_command.h"
-#include "tools/progress_line.h"
 
 namespace ndhull {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/direction_turn.h"
-#include "core/support.h"
+#include "core/search/direction_turn.h"
+#include "core/search/support.h"
 
 namespace ndhull {
 namespace {

@@ -1,5 +1,5 @@
 // The tree of heights beside a search through all of them.
-#include "core/outside_heights.h"
+#include "core/search/outside_heights.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/growth.h"
+#include "core/growth/growth.h"
 #include "tests/prepared_growth.h"
 
 namespace ndhull {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/complex_check.h"
-#include "core/growth.h"
+#include "core/growth/growth.h"
 #include "tests/prepared_growth.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

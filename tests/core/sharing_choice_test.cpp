@@ -1,5 +1,5 @@
 // Which insertions threads share, on machines whose times are made up.
-#include "core/sharing_choice.h"
+#include "core/growth/sharing_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Stars beside the complex that growth makes of the same points, and searches among rows beside plain loops.
-#include "core/vertex_stars.h"
+#include "core/growth/vertex_stars.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <set>
 #include <vector>
 
-#include "core/growth.h"
+#include "core/growth/growth.h"
 #include "tests/prepared_growth.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "tools/file_bytes.h"
-#include "tools/halfspace_reader.h"
-#include "tools/point_reader.h"
+#include "tools/io/file_bytes.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/point_reader.h"
 
 namespace {
 

@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "approx/outer_volume.h"
+#include "approx/polytope/outer_volume.h"
 #include "approx/report.h"
 #include "tests/support/degeneracies.h"
 #include "tests/support/named_polytopes.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

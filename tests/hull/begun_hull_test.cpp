@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "approx/hull_builder.h"
-#include "approx/point_reduction.h"
-#include "approx/reduced_points.h"
+#include "approx/reduction/point_reduction.h"
+#include "approx/reduction/reduced_points.h"
 #include "core/complex_check.h"
 #include "tests/hull/hull_support.h"
 

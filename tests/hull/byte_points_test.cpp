@@ -1,4 +1,4 @@
-#include "core/byte_points.h"
+#include "core/search/byte_points.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/furthest_points.h"
+#include "core/search/furthest_points.h"
 #include "tests/support/direction_cloud.h"
 #include "tests/support/fused_dot.h"
 

@@ -5,7 +5,7 @@
 #include "tests/hull/exact_oracle.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -1,5 +1,5 @@
 // The hull by whole facets: the closed forms, and the hull that grows simplices.
-#include "approx/described_hull.h"
+#include "approx/facets/described_hull.h"
 
 #include <cctype>
 #include <cmath>

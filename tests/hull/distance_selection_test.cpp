@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "approx/facet_selection.h"
-#include "approx/outer_distance.h"
+#include "approx/selection/facet_selection.h"
+#include "approx/selection/outer_distance.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

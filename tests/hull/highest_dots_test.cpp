@@ -1,4 +1,4 @@
-#include "core/highest_dots.h"
+#include "core/search/highest_dots.h"
 #include "core/id_rows.h"
 #include "core/plane_kernels.h"
 

@@ -12,8 +12,8 @@
 
 #include "approx/hull.h"
 #include "tests/support/named_polytopes.h"
-#include "tools/generate.h"
-#include "tools/point_set.h"
+#include "tools/points/generate.h"
+#include "tools/points/point_set.h"
 
 namespace ndhull {
 

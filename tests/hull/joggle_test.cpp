@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "approx/verify.h"
+#include "approx/verify/verify.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,7 @@
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

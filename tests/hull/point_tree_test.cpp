@@ -1,4 +1,4 @@
-#include "core/point_tree.h"
+#include "core/search/point_tree.h"
 
 #include <gtest/gtest.h>
 

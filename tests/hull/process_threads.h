@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "approx/point_shards.h"
+#include "approx/reduction/point_shards.h"
 
 namespace ndhull {
 

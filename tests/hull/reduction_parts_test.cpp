@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "approx/direction_extremes_kernel.h"
-#include "approx/inner_ellipsoid.h"
-#include "core/growth.h"
+#include "approx/reduction/direction_extremes_kernel.h"
+#include "approx/reduction/inner_ellipsoid.h"
+#include "core/growth/growth.h"
 #include "tests/hull/hull_support.h"
 #include "tests/prepared_growth.h"
 

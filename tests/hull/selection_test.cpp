@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "approx/boundedness.h"
-#include "approx/facet_selection.h"
-#include "approx/outer_volume.h"
+#include "approx/geometry/boundedness.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/selection/facet_selection.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "approx/point_reduction.h"
-#include "approx/reduced_points.h"
+#include "approx/reduction/point_reduction.h"
+#include "approx/reduction/reduced_points.h"
 #include "tests/hull/hull_support.h"
 #include "tests/hull/process_threads.h"
 

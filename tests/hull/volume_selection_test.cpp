@@ -1,16 +1,16 @@
 // Outer planes chosen for the volume that they enclose: never more than the largest facets do.
-#include "approx/volume_selection.h"
+#include "approx/selection/volume_selection.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "approx/facet_selection.h"
-#include "approx/outer_volume.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/selection/facet_selection.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

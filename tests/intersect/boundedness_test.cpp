@@ -1,5 +1,5 @@
 // When normals bound a region: closed forms, all candidate directions in 3-d, and completed selections.
-#include "approx/boundedness.h"
+#include "approx/geometry/boundedness.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Distances of queries from planes: against one pair at a time, and exact signs on the planes themselves.
-#include "approx/contains.h"
+#include "approx/planes/contains.h"
 
 #include <gtest/gtest.h>
 

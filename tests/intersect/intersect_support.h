@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "approx/halfspace_intersection.h"
-#include "approx/written_planes.h"
+#include "approx/planes/written_planes.h"
+#include "approx/polytope/halfspace_intersection.h"
 #include "tests/hull/hull_support.h"
 
 namespace ndhull {

@@ -1,6 +1,6 @@
 // Intersections of halfspaces: closed forms, all choices of planes, and what proves that there are no
 // vertices.
-#include "approx/halfspace_intersection.h"
+#include "approx/polytope/halfspace_intersection.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "approx/halfspace_region.h"
+#include "approx/polytope/halfspace_region.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/intersect/intersect_support.h"

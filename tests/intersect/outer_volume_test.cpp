@@ -1,5 +1,5 @@
 // Volumes below outer planes: closed forms, and never less than the hull.
-#include "approx/outer_volume.h"
+#include "approx/polytope/outer_volume.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "core/portable_random.h"
 #include "tests/intersect/intersect_support.h"
 #include "tests/support/degeneracies.h"
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "tests/io/io_test_support.h"
-#include "tools/halfspace_reader.h"
-#include "tools/rational.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/rational.h"
 
 namespace ndhull {
 namespace {

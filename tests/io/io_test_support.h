@@ -14,8 +14,8 @@
 
 #include "core/error.h"
 #include "core/points.h"
-#include "tools/npy_header.h"
-#include "tools/point_reader.h"
+#include "tools/io/npy_header.h"
+#include "tools/io/point_reader.h"
 
 namespace ndhull {
 

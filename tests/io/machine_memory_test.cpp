@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "tools/machine_memory.h"
+#include "tools/command_line/machine_memory.h"
 
 namespace ndhull {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "tests/io/io_test_support.h"
-#include "tools/halfspace_reader.h"
-#include "tools/output_file.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/output_file.h"
 
 namespace ndhull {
 namespace {

@@ -1,5 +1,5 @@
 // Hulls in Qhull's text formats: counts, orientation, and that the formats agree with each other.
-#include "tools/qhull_formats.h"
+#include "tools/io/qhull_formats.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // Option strings of Qhull: what they ask for, and what is refused.
-#include "tools/qhull_options.h"
+#include "tools/qhull/qhull_options.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "tools/qhull_scaling.h"
+#include "tools/qhull/qhull_scaling.h"
 
 namespace ndhull {
 namespace {

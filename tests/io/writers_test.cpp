@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "tests/io/io_test_support.h"
-#include "tools/halfspace_reader.h"
-#include "tools/index_writer.h"
-#include "tools/output_file.h"
-#include "tools/plane_writer.h"
+#include "tools/io/halfspace_reader.h"
+#include "tools/io/index_writer.h"
+#include "tools/io/output_file.h"
+#include "tools/io/plane_writer.h"
 
 namespace ndhull {
 namespace {

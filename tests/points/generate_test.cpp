@@ -1,4 +1,4 @@
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 #include <gtest/gtest.h>
 

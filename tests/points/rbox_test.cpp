@@ -1,4 +1,4 @@
-#include "tools/rbox.h"
+#include "tools/points/rbox.h"
 
 #include <gtest/gtest.h>
 

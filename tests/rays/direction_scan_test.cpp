@@ -1,5 +1,5 @@
 // Scans in single precision against plain loops in double precision.
-#include "approx/direction_scan.h"
+#include "approx/rays/direction_scan.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <CGAL/QP_models.h>
 #include <gtest/gtest.h>
 
-#include "approx/extreme_points.h"
+#include "approx/rays/extreme_points.h"
 #include "tests/hull/hull_support.h"
 
 namespace ndhull {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "approx/extreme_points.h"
+#include "approx/rays/extreme_points.h"
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"

@@ -1,13 +1,13 @@
 // Distances from hulls against closed forms and optimality, and the greedy choice they make.
-#include "approx/kept_points.h"
+#include "approx/reduction/kept_points.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "approx/extreme_points.h"
-#include "approx/hull_distance.h"
+#include "approx/rays/extreme_points.h"
+#include "approx/reduction/hull_distance.h"
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 

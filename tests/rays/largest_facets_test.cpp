@@ -1,5 +1,5 @@
 // The largest facets against the whole hull, on every kind of input, by both methods.
-#include "approx/largest_facets.h"
+#include "approx/rays/largest_facets.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "approx/boundedness.h"
+#include "approx/geometry/boundedness.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"

@@ -1,5 +1,5 @@
 // Walks against the whole hull: the facet that a ray leaves through, the neighbour across a ridge.
-#include "approx/ray_shooting.h"
+#include "approx/rays/ray_shooting.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

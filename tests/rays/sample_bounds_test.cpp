@@ -1,5 +1,5 @@
 // Intervals and bounds against closed forms and exact binomial sums.
-#include "approx/sample_bounds.h"
+#include "approx/rays/sample_bounds.h"
 
 #include <gtest/gtest.h>
 

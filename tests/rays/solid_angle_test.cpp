@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "approx/largest_facets.h"
+#include "approx/rays/largest_facets.h"
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/portable_random.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

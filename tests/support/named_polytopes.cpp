@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/point_set.h"
+#include "tools/points/point_set.h"
 
 namespace ndhull {
 

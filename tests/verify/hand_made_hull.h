@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "approx/hull_claims.h"
+#include "approx/verify/hull_claims.h"
 
 namespace ndhull {
 

@@ -1,5 +1,5 @@
 // Points against planes: exact decisions, any layout of the points, any number of threads.
-#include "approx/plane_check.h"
+#include "approx/planes/plane_check.h"
 
 #include <gtest/gtest.h>
 

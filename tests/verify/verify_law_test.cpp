@@ -1,7 +1,7 @@
 // The engine's own hulls before the witness, over polytopes with known facets and hard inputs.
 #include <gtest/gtest.h>
 
-#include "approx/verify.h"
+#include "approx/verify/verify.h"
 #include "tests/support/degeneracies.h"
 #include "tests/support/named_polytopes.h"
 

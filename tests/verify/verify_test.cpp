@@ -1,5 +1,5 @@
 // The witness: right hulls pass, and each kind of wrong hull is caught by the claim that is wrong.
-#include "approx/verify.h"
+#include "approx/verify/verify.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Sections and shadows against closed forms, and the order inner, hull, outer on hulls that were stopped
 // early.
-#include "approx/section.h"
+#include "approx/drawing/section.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <numeric>
 #include <set>
 
-#include "approx/projection.h"
-#include "approx/shadow.h"
+#include "approx/drawing/projection.h"
+#include "approx/drawing/shadow.h"
 #include "core/error.h"
 #include "tests/support/named_polytopes.h"
-#include "tools/generate.h"
+#include "tools/points/generate.h"
 
 namespace ndhull {
 namespace {

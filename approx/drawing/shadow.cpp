@@ -1,0 +1,136 @@
+// How far the outer polytope reaches in a direction u is a linear program: with a_f = normal / height it is
+// { z : a_f . z <= 1 }, and u . z <= sum lambda_f whenever sum lambda_f a_f = u, lambda >= 0 (weak duality).
+// Any feasible lambda is a bound, so a program that was not solved to its end costs sharpness only.
+#include "approx/drawing/shadow.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "approx/geometry/subspace.h"
+#include "core/column_simplex.h"
+
+namespace ndhull {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// [ratio] An outer polytope this close to the hull needs no sharper bound: on a page both are one line.
+constexpr double kCloseRatio = 1e-4;
+
+/// The outer polytope's reach in directions of the drawing.
+class OuterReach {
+ public:
+  OuterReach(const CentredFacets& facets, const PointView& points, std::span<const PointId> vertices)
+      : facets_(facets), scales_(Eigen::VectorXd::Zero(rows())) {
+    // Rows in units of the data's own extent: the simplex method's tolerances are relative to 1.
+    for (const PointId vertex : vertices) {
+      for (std::size_t k = 0; k < facets.dimension; ++k) {
+        double& scale = scales_[static_cast<Eigen::Index>(k)];
+        scale = std::max(scale, std::abs(points.at(vertex.value, k) - facets.centre[k]));
+      }
+    }
+    poles_.resize(rows(), static_cast<Eigen::Index>(facets.size()));
+    for (std::size_t facet = 0; facet < facets.size(); ++facet) {
+      const Eigen::Map<const Eigen::VectorXd> normal(facets.normal(facet).data(), rows());
+      poles_.col(static_cast<Eigen::Index>(facet)) =
+          normal.cwiseProduct(scales_) / (facets.heights[facet] + facets.outer[facet]);
+    }
+    directions_ = subspace_directions(facets.dimension, facets.subspace_equations);
+  }
+
+  /// An upper bound of direction . (z - centre) over the outer polytope, infinite when none was found.
+  double operator()(const Eigen::VectorXd& direction) const {
+    // Across the subspace of flat points nothing reaches anywhere.
+    Eigen::VectorXd rhs = directions_ * (directions_.transpose() * direction);
+    rhs = rhs.cwiseProduct(scales_);
+    const double length = rhs.norm();
+    if (length == 0.0) return 0.0;
+    rhs /= length;
+    ColumnSimplex program({rhs.data(), static_cast<std::size_t>(rhs.size())});
+    const LpResult result = solve_lp(program, [this](const LpQuery& query) { return best_column(query); });
+    const bool is_feasible = result.status == LpStatus::kOptimal ||
+                             (result.status == LpStatus::kStalled && result.infeasibility == 0.0);
+    return is_feasible ? length * result.objective : kInfinity;
+  }
+
+ private:
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(facets_.dimension); }
+
+  std::optional<LpColumn> best_column(const LpQuery& query) const {
+    const Eigen::Map<const Eigen::VectorXd> duals(query.duals.data(), rows());
+    Eigen::Index best = 0;
+    (poles_.transpose() * duals).maxCoeff(&best);
+    return LpColumn{LpColumnId{static_cast<std::uint32_t>(best)},
+                    1.0,
+                    {poles_.col(best).data(), static_cast<std::size_t>(rows())}};
+  }
+
+  const CentredFacets& facets_;
+  Eigen::VectorXd scales_;
+  Eigen::MatrixXd poles_;  // a column a facet
+  Eigen::MatrixXd directions_;
+};
+
+}  // namespace
+
+double outer_ratio(const CentredFacets& facets) {
+  double ratio = 1.0;
+  for (std::size_t facet = 0; facet < facets.size(); ++facet) {
+    const double least = facets.heights[facet] + facets.inner[facet];
+    if (!(least > 0.0)) return kInfinity;
+    ratio = std::max(ratio, (facets.heights[facet] + facets.outer[facet]) / least);
+  }
+  return ratio;
+}
+
+std::vector<double> coordinates_along(const DrawingAxes& axes, const PointView& points,
+                                      std::span<const PointId> ids) {
+  std::vector<double> coordinates;
+  coordinates.reserve(ids.size() * axes.count());
+  for (const PointId id : ids) {
+    for (std::size_t axis = 0; axis < axes.count(); ++axis) {
+      double value = 0.0;
+      for (std::size_t k = 0; k < axes.dimension; ++k) {
+        value += axes.measure(axis)[k] * (points.at(id.value, k) - axes.centre[k]);
+      }
+      coordinates.push_back(value);
+    }
+  }
+  return coordinates;
+}
+
+std::optional<Shadow> hull_shadow(const CentredFacets& facets, const PointView& points,
+                                  std::span<const PointId> vertices, const DrawingAxes& axes) {
+  const std::vector<double> projected = coordinates_along(axes, points, vertices);
+  std::optional<Shell> inner =
+      shell_of_points(PointView::row_major(projected.data(), vertices.size(), axes.count()));
+  if (!inner.has_value()) return std::nullopt;
+  const double ratio = outer_ratio(facets);
+  std::optional<OuterReach> reach;
+  if (ratio - 1.0 > kCloseRatio) reach.emplace(facets, points, vertices);
+  const auto dimension = static_cast<Eigen::Index>(axes.dimension);
+  const Eigen::Map<const Eigen::MatrixXd> measures(axes.measures.data(), dimension,
+                                                   static_cast<Eigen::Index>(axes.count()));
+  Shadow shadow;
+  std::vector<double> normals, heights;
+  for (const Shell::Face& face : inner->faces) {
+    const Point3& corner = inner->corners[face.corners.front()];
+    const double height = std::inner_product(corner.begin(), corner.end(), face.normal.begin(), 0.0);
+    const Eigen::Map<const Eigen::VectorXd> normal(face.normal.data(),
+                                                   static_cast<Eigen::Index>(axes.count()));
+    normals.insert(normals.end(), normal.begin(), normal.end());
+    double outer = ratio * height;
+    if (reach.has_value()) outer = std::min(outer, (*reach)(measures * normal));
+    heights.push_back(std::max(outer, height));
+    shadow.margins.push_back(heights.back() / height - 1.0);
+  }
+  const bool is_bounded =
+      std::all_of(heights.begin(), heights.end(), [](double h) { return std::isfinite(h); });
+  if (is_bounded) shadow.outer = bounded_by_planes(normals, heights, axes.count());
+  shadow.inner = std::move(*inner);
+  return shadow;
+}
+
+}  // namespace ndhull

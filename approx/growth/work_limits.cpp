@@ -1,0 +1,140 @@
+#include "approx/growth/work_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/stopwatch.h"
+
+namespace ndhull {
+namespace {
+
+// Shares of the seconds that growth spent for each simplex it made, all but those for points. Sphere points
+// in 8-d and 10-d, with 140 to 300 vertices: 0.3 to 0.5 of it for each simplex that stays, and one product of
+// a plane with a vertex 1 / 3500 to 1 / 8000 for each dimension.
+constexpr double kPlainShare = 0.4;
+constexpr double kSharePerProduct = 1.0 / 5000.0;
+/// Coplanar merging, where points were shifted: 9-d and 10-d cubes.
+constexpr double kMergeShare = 3.0;
+/// Slabs, of an approximate hull.
+constexpr double kCoverShare = 10.0;
+/// Points that are located to learn what that costs; and what walking adds where climbing proves nothing, and
+/// the longer ways in a hull that may be twice as large by then: 10-d spheres.
+constexpr std::size_t kSampledPoints = 64;
+constexpr double kPointShare = 1.5;
+
+/// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
+/// determinant, offsets, widths, area and own id.
+constexpr std::uint64_t kFacetBytes = 5 + 4 + 8 + 32 + 4;
+/// [bytes] of a simplex that may be merged: cluster, place, flags; beside them the rows are copied once to
+/// get their order.
+constexpr std::uint64_t kMergeBytes = 64;
+/// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points;
+/// the more the fewer merge.
+constexpr std::uint64_t kCoverBytes = 140;
+/// [bytes] of a simplex that points were searched above: what was found; of a coordinate of these points.
+constexpr std::uint64_t kSearchBytes = 32, kSearchedCoordinate = 24;
+/// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
+constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
+
+}  // namespace
+
+/// [bytes] of a simplex in the end, when it may be merged with others, and when it is looked at for slabs.
+std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) {
+  std::uint64_t bytes = 16 * work.rank + kFacetBytes;
+  // Of flat data the normals are longer than the planes and do not take their place.
+  if (work.rank != dimension) bytes += 8 * dimension;
+  if (merges) bytes += 16 * work.rank + kMergeBytes;
+  if (covers) bytes += kCoverBytes;
+  return bytes;
+}
+
+std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const {
+  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.most_memory() / 8);
+  const std::uint64_t used = point_bytes + whole_pages;
+  const std::uint64_t left = limits_.most_memory() > used ? limits_.most_memory() - used : 0;
+  return std::max<std::uint64_t>(1, left / bytes_a_row);
+}
+
+std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
+                                    std::uint64_t point_bytes) const {
+  if (limits_.most_memory() == 0) return 0;
+  const bool merges = must_cover_ || !work.shifted_points.empty();
+  return rows_for(row_bytes(work, dimension, merges, must_cover_), point_bytes);
+}
+
+bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
+                                     std::uint64_t point_bytes) const {
+  if (limits_.most_memory() == 0) return true;
+  return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
+}
+
+bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimension,
+                                      std::uint64_t point_bytes, std::uint64_t points) const {
+  if (limits_.most_memory() == 0) return true;
+  const std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false) +
+                                    4 * work.rank + 8 * dimension + kSearchBytes;
+  const std::uint64_t bytes_of_points = point_bytes + points * dimension * kSearchedCoordinate;
+  return work.complex.row_count <= rows_for(bytes_a_row, bytes_of_points);
+}
+
+std::uint64_t WorkLimits::bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const {
+  if (limits_.most_memory() == 0) return UINT64_MAX;
+  const std::uint64_t complex_bytes = work.complex.row_count * (16 * work.rank + kFacetBytes);
+  return rows_for(1, point_bytes + complex_bytes);
+}
+
+double WorkLimits::seconds_left() const { return limits_.max_seconds - seconds_since(start_); }
+
+double WorkLimits::seconds_per_created(const GrowthWork& work) {
+  const GrowthCounters& counters = work.counters;
+  const double seconds = counters.seconds_visible + counters.seconds_cone + counters.seconds_match;
+  return seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.created));
+}
+
+double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
+  const std::uint64_t rows = work.complex.row_count - work.free_count;
+  if (rows >= 2 * sampled_at_) {
+    sampled_at_ = rows;
+    std::vector<PointId> sample;
+    const std::size_t step = std::max<std::size_t>(1, work.point_count / kSampledPoints);
+    for (std::size_t id = 0; id < work.point_count; id += step)
+      sample.push_back(PointId{static_cast<std::uint32_t>(id)});
+    const Clock::time_point begin = Clock::now();
+    try_inside(work.complex, work.points, ball, sample);
+    seconds_per_point_ = kPointShare * seconds_since(begin) / static_cast<double>(sample.size());
+  }
+  const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
+  double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
+  if (!work.shifted_points.empty()) share += kMergeShare;
+  return static_cast<double>(rows) * share * seconds_per_created(work) +
+         static_cast<double>(points) * seconds_per_point_;
+}
+
+bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
+  if (limits_.max_seconds <= 0.0) return false;
+  // Other work on the machine and what is not foreseen one by one: better too early than too late.
+  constexpr double kReserve = 0.05;
+  const double left = seconds_left() - kReserve * limits_.max_seconds;
+  return left <= 0.0 || finish_seconds(work, ball, points) >= left;
+}
+
+bool WorkLimits::has_time_to_cover(const GrowthWork& work) const {
+  if (limits_.max_seconds <= 0.0) return true;
+  const double rows = static_cast<double>(work.complex.row_count - work.free_count);
+  return rows * kCoverShare * seconds_per_created(work) < seconds_left();
+}
+
+bool WorkLimits::is_late() const {
+  constexpr double kLate = 0.6;  // of the time
+  return limits_.max_seconds > 0.0 && seconds_left() < (1.0 - kLate) * limits_.max_seconds;
+}
+
+double WorkLimits::affordable_products(const GrowthWork& work, bool is_stopped) const {
+  double seconds = HUGE_VAL;
+  if (is_stopped) seconds = std::max(1.0, 0.1 * seconds_since(start_));
+  if (limits_.max_seconds > 0.0) seconds = std::clamp(0.3 * seconds_left(), 0.0, seconds);
+  return seconds / (kSharePerProduct * seconds_per_created(work));
+}
+
+}  // namespace ndhull

@@ -1,0 +1,63 @@
+// When growth has to end so that what follows it keeps the limits too: certificate, merging, the facet table.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "approx/hull.h"
+#include "core/growth/growth.h"
+#include "core/membership.h"
+
+namespace ndhull {
+
+/// Foresees what a hull will need after growth, from what growth needed so far.
+///
+/// Time    Each simplex costs some share of what making it did; the shares were measured in 5-d to 10-d. What
+/// a
+///         point costs is measured on a few points whenever the hull has doubled.
+/// Memory  Counted, not measured: tables of growth, then of facets, and the points.
+class WorkLimits {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `start`: of the clock that max_seconds limits. `must_cover`: the simplices are gathered into facets in
+  /// any case.
+  WorkLimits(const Limits& limits, Clock::time_point start, bool must_cover)
+      : limits_(limits), start_(start), must_cover_(must_cover) {}
+
+  /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
+  /// of the points.
+  std::uint64_t most_rows(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
+  /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
+  /// inside.
+  bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  /// Is there time, and is there memory, to gather the simplices into slabs?
+  bool has_time_to_cover(const GrowthWork& work) const;
+  bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
+  /// Is there memory to search `points` for the furthest above each simplex (outside_points.h)?
+  bool has_memory_to_search(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
+                            std::uint64_t points) const;
+  /// [bytes] that are left beside the complex and the points; UINT64_MAX: no limit.
+  std::uint64_t bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const;
+  /// Has so much of the time passed that nothing should be tried a second time?
+  bool is_late() const;
+  /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a
+  /// request to stop: that take a second, or some share of the time so far.
+  double affordable_products(const GrowthWork& work, bool is_stopped) const;
+
+ private:
+  double seconds_left() const;
+  static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);
+  std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
+  double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  static double seconds_per_created(const GrowthWork& work);
+
+  Limits limits_;
+  Clock::time_point start_;
+  bool must_cover_;
+  std::uint64_t sampled_at_ = 0;  // rows when points were sampled last
+  double seconds_per_point_ = 0.0;
+};
+
+}  // namespace ndhull

@@ -1,0 +1,176 @@
+#include "approx/polytope/outer_volume.h"
+
+#include <tbb/task_arena.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "approx/geometry/boundedness.h"
+#include "approx/geometry/subspace.h"
+#include "approx/polytope/plane_polytope.h"
+#include "core/blocks.h"
+#include "core/stopwatch.h"
+
+namespace ndhull {
+namespace {
+
+using Eigen::Index;
+
+// Measured on one core in 4-d to 8-d with 20 to 160 planes: 2 to 15 us for each vertex, which is a simplex of
+// the dual hull and faces of all dimensions; 0.1 us for a simplex that growth made.
+constexpr double kSecondsPerSimplex = 1.5e-6;
+constexpr double kSecondsPerFace = 3.5e-8;
+constexpr double kSecondsPerCreated = 1e-7;
+constexpr double kAffordableSeconds = 0.01;
+constexpr double kAffordableShare = 0.2;
+
+constexpr const char* kOutOfTime = "it would take longer than the limit on seconds";
+
+/// Faces of all dimensions that contain a vertex of a simple polytope.
+double faces_at_vertex(std::size_t rank) { return std::ldexp(1.0, static_cast<int>(rank)); }
+
+/// The fewest vertices of a simple polytope with so many facets (Barnette. The minimum number of vertices of
+/// a simple polytope. Israel Journal of Mathematics 10, 1971). Few outer planes of a hull are redundant.
+double fewest_vertices(std::size_t rank, std::size_t facets) {
+  const double d = static_cast<double>(rank);
+  return (d - 1.0) * static_cast<double>(facets) - (d + 1.0) * (d - 2.0);
+}
+
+/// Has the polytope of all planes more vertices than that? Tried on an even part of them, unless they are
+/// few: vertices for each plane only become more with the planes, where hardly any is redundant.
+bool seems_larger(const PlanesAboutOrigin& planes, std::uint64_t vertices, HullOptions options) {
+  constexpr std::size_t kLargestStep = 8, kLeastStep = 4;  // one plane of so many
+  constexpr std::size_t kPlanesForRank = 5;                // fewer may bound no region
+  constexpr double kScatter = 1.25;                        // of the vertices of a part
+  const std::size_t count = planes.heights.size();
+  const std::size_t step = std::min(kLargestStep, count / (kPlanesForRank * planes.rank));
+  if (step < kLeastStep) return false;
+  PlanesAboutOrigin part;
+  part.rank = planes.rank;
+  for (std::size_t plane = 0; plane < count; plane += step) {
+    const double* normal = planes.normals.data() + plane * planes.rank;
+    part.normals.insert(part.normals.end(), normal, normal + planes.rank);
+    part.heights.push_back(planes.heights[plane]);
+  }
+  options.limits.max_facets =
+      static_cast<std::uint64_t>(kScatter * static_cast<double>(vertices) / static_cast<double>(step)) + 1;
+  return intersect_about_origin(part, options).status == HullStatus::kFacetLimit;
+}
+
+/// Scaled by this about its interior point the hull holds what all its outer planes enclose; infinite when
+/// that cannot be said.
+///
+/// Proof  In the cone from the interior point over one of a facet's simplices a point is t times one of the
+///        simplex. That is above the inner plane, so height + inner away at least, if height is how far the
+///        interior point is below the facet's plane; below the outer plane t is (height + outer) / (height +
+///        inner) at most. The cones fill the space.
+double scale_of_outer_polytope(const Hull& hull) {
+  constexpr std::size_t kFacetsAtATime = 4096;
+  std::vector<double> scales((hull.facet_count() + kFacetsAtATime - 1) / kFacetsAtATime, 1.0);
+  for_each_block(hull.facet_count(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    double& scale = scales[begin / kFacetsAtATime];
+    for (std::size_t id = begin; id < end; ++id) {
+      const FacetId facet{static_cast<std::uint32_t>(id)};
+      const double unit = hull.input_per_length_unit(facet);
+      double height = -hull.centred_offset(facet);
+      for (std::size_t k = 0; k < hull.dimension; ++k)
+        height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
+      const double lowest = height + hull.inner_offset(facet) * unit;
+      scale = lowest > 0.0 ? std::max(scale, (height + hull.outer_offset(facet) * unit) / lowest) : HUGE_VAL;
+    }
+  });
+  double scale = 1.0;
+  for (const double of_block : scales) scale = std::max(scale, of_block);
+  return scale;
+}
+
+}  // namespace
+
+PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets) {
+  const Eigen::MatrixXd directions = subspace_directions(hull.dimension, hull.subspace_equations);
+  PlanesAboutOrigin planes;
+  planes.rank = hull.rank;
+  const auto add = [&](FacetId facet) {
+    const Eigen::Map<const Eigen::VectorXd> normal(hull.normal(facet).data(),
+                                                   static_cast<Index>(hull.dimension));
+    const Eigen::VectorXd inside = directions.transpose() * normal;
+    double height = hull.outer_offset(facet) * hull.input_per_length_unit(facet) - hull.centred_offset(facet);
+    for (std::size_t k = 0; k < hull.dimension; ++k)
+      height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
+    const double length = inside.norm();
+    for (const double value : inside) planes.normals.push_back(value / length);
+    planes.heights.push_back(height / length);
+  };
+  for (const FacetId facet : facets) add(facet);
+  if (facets.empty()) {
+    for (std::uint32_t id = 0; id < hull.facet_count(); ++id) add(FacetId{id});
+  }
+  return planes;
+}
+
+OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
+                         unsigned threads, const std::stop_token& stop, double max_seconds) {
+  if (hull.rank == 0) return {0.0, ""};
+  const Clock::time_point start = Clock::now();
+  constexpr double kNarrow = 1.0 + 1e-10;
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  const double scale =
+      facets.empty() ? arena.execute([&] { return scale_of_outer_polytope(hull); }) : HUGE_VAL;
+  const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
+  const OuterVolume beyond{std::nullopt, "it is beyond the range of doubles"};
+  if (scale <= kNarrow) return is_in_range(most) ? OuterVolume{most, ""} : beyond;
+  const OuterVolume too_many{
+      std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
+  const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
+  if (max_simplices > 0 && fewest_vertices(hull.rank, count) > static_cast<double>(max_simplices)) {
+    return too_many;
+  }
+  const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
+  for (const double height : planes.heights) {
+    if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
+  }
+  if (!facets.empty() && !find_open_direction(planes.normals, planes.rank).bounded) {
+    return {std::nullopt, "the outer planes do not bound a region"};
+  }
+  HullOptions options;
+  options.wants_partial = false;
+  options.limits.max_facets = max_simplices;
+  options.threads = threads;
+  options.stop = stop;
+  const auto spend_time = [&] {
+    if (max_seconds > 0.0) options.limits.max_seconds = std::max(max_seconds - seconds_since(start), 1e-9);
+  };
+  spend_time();
+  if (max_simplices > 0 && seems_larger(planes, max_simplices, options)) return too_many;
+  spend_time();
+  const PlanePolytope polytope = intersect_about_origin(planes, options);
+  if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
+  if (polytope.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
+  if (polytope.status != HullStatus::kComplete) return too_many;
+  if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
+  spend_time();
+  const PolytopeMeasure measure = measure_polytope(planes, polytope, options, false);
+  if (measure.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
+  if (measure.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
+  if (measure.status != HullStatus::kComplete) return too_many;
+  // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
+  const double volume = std::max(hull.volume, std::min(most, measure.volume));
+  return is_in_range(volume) ? OuterVolume{volume, ""} : beyond;
+}
+
+std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits) {
+  const double growth = kSecondsPerCreated * static_cast<double>(hull.statistics.created_simplices);
+  const double faces = faces_at_vertex(hull.rank);
+  double simplices = std::max(kAffordableSeconds, kAffordableShare * growth) /
+                     (kSecondsPerSimplex + kSecondsPerFace * faces);
+  if (limits.max_memory_bytes > 0) {
+    // Of the faces and, as with growth, the tables of the dual hull.
+    const double bytes = 8.0 * faces + 32.0 * static_cast<double>(hull.rank);
+    simplices = std::min(simplices, static_cast<double>(limits.max_memory_bytes) / bytes);
+  }
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(simplices));
+}
+
+}  // namespace ndhull

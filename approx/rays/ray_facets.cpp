@@ -1,0 +1,179 @@
+// Areas are computed in the frame. A facet of area A_f on the plane a.y = 1 has the cone A_f / (|a| rank),
+// and cones have the ratio of the map's determinant to those in input units; with the height h of the centre
+// below the plane in input units the area is rank cone / h.
+#include "approx/rays/ray_facets.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "approx/geometry/frame_planes.h"
+#include "approx/geometry/orthonormal.h"
+#include "approx/hull.h"
+#include "core/dense_solve.h"
+#include "core/dense_views.h"
+
+namespace ndhull {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Simplices of a hull within a plane after which its area is that of a part. Some seconds in 15-d.
+constexpr std::uint64_t kMaxSimplicesInPlane = 1'000'000;
+/// Ridges that are walked over, of a facet that has more.
+constexpr std::size_t kMaxRidges = 1024;
+
+RowMatrix rows_of(const FramePoints& points, const std::vector<std::uint32_t>& ids) {
+  RowMatrix rows(static_cast<Index>(ids.size()), static_cast<Index>(points.rank));
+  for (std::size_t row = 0; row < ids.size(); ++row)
+    rows.row(static_cast<Index>(row)) = points.point(ids[row]);
+  return rows;
+}
+
+}  // namespace
+
+/// The points of a facet in coordinates within its plane, and their hull.
+struct FacetGeometry::InPlane {
+  std::vector<double> coordinates;  // points x (rank - 1)
+  Hull hull;
+};
+
+FacetGeometry::FacetGeometry(const RayShooter& shooter) : shooter_(shooter) {
+  const ScaledRatio scale = volume_scale(shooter.frame());
+  volume_scale_ = std::ldexp(scale.ratio, scale.exponent);
+  const Frame& frame = shooter.frame();
+  const auto rank = static_cast<Index>(frame.rank);
+  const RowMatrix identity = RowMatrix::Identity(rank, rank);
+  std::vector<double> lengths(frame.rank);
+  to_input_.resize(rank, static_cast<Index>(frame.dimension));
+  NormalMap(frame).map(identity.data(), frame.rank, to_input_.data(), lengths.data());
+  for (Index row = 0; row < rank; ++row) to_input_.row(row) *= lengths[static_cast<std::size_t>(row)];
+}
+
+FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
+  const FramePoints points = shooter_.points();
+  const auto rank = static_cast<Index>(points.rank);
+  const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), rank);
+  // The first column of Q is along the normal, the others span the plane.
+  const Eigen::MatrixXd axes = orthonormal_columns(plane, rank).rightCols(rank - 1);
+  const RowMatrix all = rows_of(points, facet.points);
+  const RowMatrix within = (all.rowwise() - all.row(0)) * axes;
+  InPlane result;
+  result.coordinates.assign(within.data(), within.data() + within.size());
+  HullOptions options;
+  options.limits.max_facets = kMaxSimplicesInPlane;
+  options.certifies_planes = false;  // those of ridges are not used
+  options.threads = static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
+  result.hull = convex_hull(
+      PointView::row_major(result.coordinates.data(), facet.points.size(), points.rank - 1), options);
+  return result;
+}
+
+double FacetGeometry::area_per_determinant(const std::vector<double>& plane) const {
+  const Eigen::Map<const Eigen::VectorXd> a(plane.data(), to_input_.rows());
+  const double per_height = (to_input_.transpose() * a).norm();
+  return per_height / (std::tgamma(static_cast<double>(plane.size())) * volume_scale_);
+}
+
+std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& points) const {
+  const RowMatrix rows = rows_of(shooter_.points(), points);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.rows());
+  const PivotedFactors factors(rows);
+  Eigen::VectorXd plane = factors.solve(ones);
+  plane += factors.solve(ones - rows * plane);  // one step of refinement
+  return {plane.data(), plane.data() + plane.size()};
+}
+
+RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
+                                   const std::vector<std::uint32_t>& basis) const {
+  const FramePoints points = shooter_.points();
+  const std::size_t rank = points.rank;
+  RayFacet facet;
+  facet.points = on_plane;
+  facet.vertices = on_plane;
+  facet.plane = fit_plane(on_plane);
+  const double simplex_determinant = std::abs(SquareFactors(rows_of(points, basis)).determinant());
+  facet.area = simplex_determinant * area_per_determinant(facet.plane);
+  if (on_plane.size() == rank) return facet;
+  if (rank - 1 > kMaxRank) {
+    facet.area_is_whole = false;
+    return facet;
+  }
+  const InPlane within = project(facet);
+  if (within.hull.rank + 1 < rank) return facet;  // thinner than roundoff: the simplex is all there is
+  facet.area_is_whole = within.hull.status == HullStatus::kComplete;
+  facet.vertices.clear();
+  for (const PointId id : within.hull.vertices) facet.vertices.push_back(on_plane[id.value]);
+  // determinant of the facet's cone = (rank - 1)! area height, height = 1 / |a|
+  const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), static_cast<Index>(rank));
+  const double determinant = within.hull.volume * std::tgamma(static_cast<double>(rank)) / plane.norm();
+  facet.area = determinant * area_per_determinant(facet.plane);
+  return facet;
+}
+
+std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
+  const std::size_t rank = shooter_.points().rank;
+  std::vector<WalkTask> walks;
+  if (facet.vertices.size() == rank) {
+    for (std::size_t place = 0; place < rank; ++place) {
+      walks.push_back({.direction = {}, .basis = facet.vertices, .place = place});
+    }
+    return walks;
+  }
+  if (rank - 1 > kMaxRank) return walks;
+  const InPlane within = project(facet);
+  const Hull& hull = within.hull;
+  if (hull.rank + 1 < rank || hull.rank < 2) {
+    // A segment: each end is a ridge.
+    if (hull.rank + 1 < rank || hull.vertices.size() != 2) return walks;
+    const std::vector<std::uint32_t> ends = {facet.points[hull.vertices[0].value],
+                                             facet.points[hull.vertices[1].value]};
+    walks.push_back({.direction = {}, .basis = ends, .place = 0});
+    walks.push_back({.direction = {}, .basis = ends, .place = 1});
+    return walks;
+  }
+  std::vector<FacetId> ridges;
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) ridges.push_back(FacetId{row});
+  std::stable_sort(ridges.begin(), ridges.end(),
+                   [&hull](FacetId a, FacetId b) { return hull.area_of(a) > hull.area_of(b); });
+  if (ridges.size() > kMaxRidges) ridges.resize(kMaxRidges);
+  for (const FacetId ridge : ridges) {
+    WalkTask task;
+    // The largest simplex of the ridge, and the point furthest from it.
+    double largest = -1.0;
+    for (const SimplexId simplex : hull.simplices_of(ridge)) {
+      RowMatrix edges(static_cast<Index>(rank) - 2, static_cast<Index>(rank) - 1);
+      const auto vertices = hull.simplices().vertices(simplex);
+      const auto coordinates_of = [&](PointId id) {
+        return Eigen::Map<const Eigen::RowVectorXd>(within.coordinates.data() + id.value * (rank - 1),
+                                                    static_cast<Index>(rank) - 1);
+      };
+      for (std::size_t k = 1; k < vertices.size(); ++k) {
+        edges.row(static_cast<Index>(k) - 1) = coordinates_of(vertices[k]) - coordinates_of(vertices[0]);
+      }
+      const double size = SquareFactors(edges * edges.transpose()).determinant();
+      if (size <= largest) continue;
+      largest = size;
+      task.basis.clear();
+      for (const PointId id : vertices) task.basis.push_back(facet.points[id.value]);
+    }
+    double lowest = HUGE_VAL;
+    std::uint32_t lowest_id = 0;
+    for (const PointId id : hull.vertices) {
+      double distance = 0.0;
+      for (std::size_t k = 0; k + 1 < rank; ++k) {
+        distance += hull.normal(ridge)[k] * within.coordinates[id.value * (rank - 1) + k];
+      }
+      if (distance >= lowest) continue;
+      lowest = distance;
+      lowest_id = facet.points[id.value];
+    }
+    task.basis.push_back(lowest_id);
+    task.place = rank - 1;
+    walks.push_back(std::move(task));
+  }
+  return walks;
+}
+
+}  // namespace ndhull

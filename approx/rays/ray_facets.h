@@ -1,0 +1,55 @@
+// Facets as walks find them: their points, planes, areas and ridges.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "approx/rays/ray_shooting.h"
+
+namespace ndhull {
+
+/// A facet of the hull of all points.
+struct RayFacet {
+  std::vector<std::uint32_t> points;    ///< ids of all points on the plane, ascending; tells facets apart
+  std::vector<std::uint32_t> vertices;  ///< those that are vertices of the facet, ascending
+  std::vector<double> plane;            ///< a with a.y = 1 on the facet, frame
+  double area = 0.0;                    ///< [area, input units]
+  /// False where points on one plane are too many, or their dimension too high, for their hull: then `area`
+  /// is that of a part, and not all points are known to be vertices.
+  bool area_is_whole = true;
+};
+
+/// Turns walks into facets. Safe to call from several threads.
+class FacetGeometry {
+ public:
+  explicit FacetGeometry(const RayShooter& shooter);
+
+  /// The facet through all the points on a plane. Simplices that share a plane are one facet: its points'
+  /// hull within the plane has the area.
+  ///
+  /// basis  rank of the points, affinely independent.
+  /// Cost   O(rank^3) for rank points; else that of their hull in rank - 1 dimensions.
+  RayFacet make_facet(const std::vector<std::uint32_t>& on_plane,
+                      const std::vector<std::uint32_t>& basis) const;
+
+  /// a with a.y = 1 on the points, in the frame, by least squares.
+  std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;
+
+  /// Walks over the ridges of a facet; of very many, over the largest ones. Of a simplex
+  /// points and vertices are enough.
+  std::vector<WalkTask> ridge_walks(const RayFacet& facet) const;
+
+ private:
+  struct InPlane;
+  double area_per_determinant(const std::vector<double>& plane) const;
+  InPlane project(const RayFacet& facet) const;
+
+  const RayShooter& shooter_;
+  double volume_scale_ = 0.0;  // frame volume per input volume
+  // rank x dimension: a plane times this is its normal in input units, of length one over its height.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> to_input_;
+};
+
+}  // namespace ndhull

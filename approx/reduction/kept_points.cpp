@@ -1,0 +1,185 @@
+// A vertex whose nearest point is known stays as far away when a new one is chosen that lies behind the plane
+// across its gap. Others are marked, and looked at again when they come to the head of the queue: distances
+// only fall, so the furthest that is up to date is the furthest of all. Eight are looked at together, which
+// is as many for any number of threads.
+#include "approx/reduction/kept_points.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+
+#include "approx/reduction/hull_distance.h"
+#include "core/blocks.h"
+
+namespace ndhull {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr std::size_t kLooksAtATime = 8;
+/// A point found this near to one, as a part of what is enough, ends the search for the nearest.
+constexpr double kWellWithin = 0.99;
+/// Points that are this little outside the others' hull are no vertices (extreme_points). [ratio]
+constexpr double kVertexRounding = 4e-12;
+
+Eigen::MatrixXd gather_columns(const PointView& points, std::span<const PointId> ids,
+                               std::span<const double> centre) {
+  Eigen::MatrixXd columns(static_cast<Index>(points.dimension), static_cast<Index>(ids.size()));
+  for (std::size_t row = 0; row < ids.size(); ++row) {
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      columns(static_cast<Index>(k), static_cast<Index>(row)) = points.at(ids[row].value, k) - centre[k];
+    }
+  }
+  return columns;
+}
+
+/// The greedy choice.
+class Chooser {
+ public:
+  Chooser(const PointView& points, std::span<const PointId> vertices, std::span<const double> centre,
+          const KeepOptions& options)
+      : vertices_(vertices),
+        columns_(gather_columns(points, vertices, centre)),
+        kept_(columns_.leftCols(static_cast<Index>(options.given))),
+        found_(vertices.size()),
+        is_current_(vertices.size(), false),
+        enough_(options.enough) {
+    size_ = std::sqrt(columns_.colwise().squaredNorm().maxCoeff());
+    const auto first = static_cast<std::uint32_t>(options.given);
+    for (std::uint32_t row = first; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
+  }
+
+  std::size_t furthest_from_centre() const {
+    Index furthest = 0;
+    columns_.colwise().squaredNorm().maxCoeff(&furthest);
+    return static_cast<std::size_t>(furthest);
+  }
+
+  void keep(std::size_t vertex) {
+    kept_.conservativeResize(Eigen::NoChange, kept_.cols() + 1);
+    kept_.col(kept_.cols() - 1) = columns_.col(static_cast<Index>(vertex));
+    std::erase_if(far_, [&](std::uint32_t row) { return found_[row].upper <= enough_; });
+    for_each_block(far_.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const HullDistance& known = found_[far_[i]];
+        const Eigen::VectorXd edge = kept_.col(kept_.cols() - 1) - columns_.col(static_cast<Index>(far_[i]));
+        if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[far_[i]] = 0;
+      }
+    });
+  }
+
+  /// The vertex that is furthest from the hull of those kept, or one that is near enough as all are. There is
+  /// one that was not given.
+  std::size_t furthest() {
+    while (true) {
+      std::vector<std::uint32_t> looks;
+      while (looks.size() < kLooksAtATime && !queue_.empty() && queue_.top().distance > enough_ &&
+             is_current_[queue_.top().vertex] == 0) {
+        looks.push_back(queue_.top().vertex);
+        queue_.pop();
+      }
+      if (looks.empty()) return queue_.top().vertex;
+      for (const std::uint32_t vertex : looks)
+        if (found_[vertex].places.empty()) far_.push_back(vertex);
+      for_each_block(looks.size(), 1, [&](std::size_t one, std::size_t) {
+        HullDistance& known = found_[looks[one]];
+        known = hull_distance(kept_, columns_.col(static_cast<Index>(looks[one])), std::move(known),
+                              {.near_enough = kWellWithin * enough_, .size = size_});
+        is_current_[looks[one]] = 1;
+      });
+      for (const std::uint32_t vertex : looks) queue_.push({found_[vertex].upper, vertex});
+    }
+  }
+
+  /// Looks at all again that may be nearer by now.
+  void measure_all() {
+    constexpr std::size_t kAtATime = 16;
+    for_each_block(vertices_.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row != end; ++row) {
+        HullDistance& known = found_[row];
+        if (known.places.empty() || known.upper <= vertex_rounding()) continue;
+        known =
+            hull_distance(kept_, columns_.col(static_cast<Index>(row)), std::move(known), {.size = size_});
+      }
+    });
+  }
+
+  const HullDistance& distance(std::size_t vertex) const { return found_[vertex]; }
+  std::vector<double> distances() const {
+    std::vector<double> distances(found_.size());
+    std::transform(found_.begin(), found_.end(), distances.begin(),
+                   [](const HullDistance& known) { return known.upper; });
+    return distances;
+  }
+  double vertex_rounding() const { return kVertexRounding * size_; }
+  double size() const { return size_; }
+
+ private:
+  struct Entry {
+    double distance;
+    std::uint32_t vertex;
+    bool operator<(const Entry& other) const {
+      return distance != other.distance ? distance < other.distance : vertex > other.vertex;
+    }
+  };
+
+  std::span<const PointId> vertices_;
+  Eigen::MatrixXd columns_;  // about the centre
+  Eigen::MatrixXd kept_;
+  std::vector<HullDistance> found_;
+  std::vector<std::uint8_t> is_current_;
+  std::vector<std::uint32_t> far_;    // those looked at that were further than enough, at least
+  std::priority_queue<Entry> queue_;  // one entry a vertex that was not given
+  double enough_;
+  double size_ = 0.0;
+};
+
+}  // namespace
+
+KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
+                       std::span<const double> centre, const KeepOptions& options) {
+  KeptPoints result;
+  if (vertices.empty()) return result;
+  Chooser chooser(points, vertices, centre, options);
+  result.points.assign(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(options.given));
+  result.left.resize(vertices.size());
+  if (options.given == vertices.size()) return result;
+  std::size_t next = options.given > 0 ? chooser.furthest() : chooser.furthest_from_centre();
+  double last_distance = HUGE_VAL;
+  while (true) {
+    chooser.keep(next);
+    result.points.push_back(vertices[next]);
+    next = chooser.furthest();
+    const HullDistance& furthest = chooser.distance(next);
+    last_distance = std::min(last_distance, furthest.upper + chooser.vertex_rounding());
+    result.distances.push_back(last_distance);
+    result.lower = furthest.lower;
+    if (result.points.size() >= std::min(options.count, vertices.size()) || furthest.lower == 0.0) break;
+    if (furthest.upper <= options.enough || options.stop.stop_requested()) break;
+    if (options.progress) {
+      options.progress("kept " + std::to_string(result.points.size()) + ", distance " +
+                       std::to_string(last_distance));
+    }
+  }
+  if (options.measures_left) chooser.measure_all();
+  result.left = chooser.distances();
+  return result;
+}
+
+std::vector<double> distances_from_hull(const PointView& points, std::span<const PointId> hull,
+                                        std::span<const double> centre) {
+  const Eigen::MatrixXd columns = gather_columns(points, hull, centre);
+  std::vector<double> distances(points.rows);
+  for_each_block(points.rows, 1, [&](std::size_t row, std::size_t) {
+    Eigen::VectorXd point(static_cast<Index>(points.dimension));
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      point[static_cast<Index>(k)] = points.at(row, k) - centre[k];
+    }
+    distances[row] = hull_distance(columns, point).upper;
+  });
+  return distances;
+}
+
+}  // namespace ndhull

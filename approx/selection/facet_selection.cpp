@@ -1,0 +1,109 @@
+#include "approx/selection/facet_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "approx/geometry/boundedness.h"
+#include "approx/selection/outer_distance.h"
+#include "approx/selection/volume_selection.h"
+
+namespace ndhull {
+namespace {
+
+/// Keeps the first `count` ids by `before`, and marks the others as dropped.
+template <class Before>
+void keep_first(std::uint64_t count, std::vector<std::uint32_t>& ids, std::vector<bool>& is_kept,
+                const Before& before) {
+  if (count >= ids.size()) return;
+  const auto rest = ids.begin() + static_cast<std::ptrdiff_t>(count);
+  std::nth_element(ids.begin(), rest, ids.end(), before);
+  for (auto id = rest; id != ids.end(); ++id) is_kept[*id] = false;
+}
+
+/// One flag a facet. The options look at all facets each: their results are intersected.
+std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
+  const auto simplices = [&hull](std::uint32_t id) { return hull.simplex_count_of(FacetId{id}); };
+  // Areas beyond the range of doubles are the largest: a number that is none must not spoil the order.
+  const auto area = [&hull](std::uint32_t id) {
+    const double value = hull.area_of(FacetId{id});
+    return value >= 0.0 || value < 0.0 ? value : HUGE_VAL;
+  };
+  const auto is_larger = [&area](std::uint32_t a, std::uint32_t b) {
+    const double area_a = area(a), area_b = area(b);
+    return area_a != area_b ? area_a > area_b : a < b;
+  };
+  const auto is_more_merged = [&](std::uint32_t a, std::uint32_t b) {
+    const std::size_t of_a = simplices(a), of_b = simplices(b);
+    return of_a != of_b ? of_a > of_b : is_larger(a, b);
+  };
+  std::vector<bool> is_kept(hull.facet_count(), true);
+  std::vector<std::uint32_t> ids(hull.facet_count());
+  std::iota(ids.begin(), ids.end(), 0U);
+  if (options.largest && options.measure != SelectionMeasure::kArea) {
+    is_kept.assign(is_kept.size(), false);
+    const std::vector<FacetId> chosen = options.measure == SelectionMeasure::kVolume
+                                            ? choose_for_volume(hull, *options.largest, end)
+                                            : choose_for_distance(hull, *options.largest, end);
+    for (const FacetId facet : chosen) is_kept[facet.value] = true;
+  } else if (options.largest) {
+    keep_first(*options.largest, ids, is_kept, is_larger);
+  }
+  if (options.most_merged) keep_first(*options.most_merged, ids, is_kept, is_more_merged);
+  if (options.min_area) {
+    for (const std::uint32_t id : ids) is_kept[id] = is_kept[id] && area(id) >= *options.min_area;
+  }
+  return is_kept;
+}
+
+std::vector<double> normals_of(const Hull& hull, const std::vector<std::uint32_t>& ids) {
+  std::vector<double> normals;
+  normals.reserve(ids.size() * hull.dimension);
+  for (const std::uint32_t id : ids) {
+    const std::span<const double> normal = hull.normal(FacetId{id});
+    normals.insert(normals.end(), normal.begin(), normal.end());
+  }
+  return normals;
+}
+
+/// Enough to know by their normals what is thin.
+std::vector<std::uint32_t> some_facets(const Hull& hull) {
+  constexpr std::size_t kMost = 4096;
+  const std::size_t step = hull.facet_count() / kMost + 1;
+  std::vector<std::uint32_t> ids;
+  for (std::size_t id = 0; id < hull.facet_count(); id += step) ids.push_back(static_cast<std::uint32_t>(id));
+  return ids;
+}
+
+}  // namespace
+
+FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
+  const std::vector<bool> is_kept = kept_facets(hull, options, end);
+  const bool is_chosen = options.largest && options.measure != SelectionMeasure::kArea;
+  std::vector<std::uint32_t> all(hull.facet_count()), ids;
+  std::iota(all.begin(), all.end(), 0U);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(ids),
+               [&](std::uint32_t id) { return is_kept[id]; });
+  const std::vector<double> shape = normals_of(hull, some_facets(hull));
+  const auto region_of = [&](const std::vector<std::uint32_t>& chosen) {
+    return find_open_direction(normals_of(hull, chosen), hull.dimension, hull.subspace_equations, shape);
+  };
+  FacetSelection selection;
+  selection.is_cut_short = is_chosen && end.is_here();
+  Boundedness region = region_of(ids);
+  if (options.bounded && !region.bounded) {
+    const std::vector<std::uint32_t> added =
+        complete_to_bounded(normals_of(hull, all), hull.dimension, ids, hull.subspace_equations);
+    selection.added = added.size();
+    ids.insert(ids.end(), added.begin(), added.end());
+    std::sort(ids.begin(), ids.end());
+    region = region_of(ids);
+  }
+  selection.bounded = region.bounded;
+  selection.open_direction = std::move(region.direction);
+  for (const std::uint32_t id : ids) selection.facets.push_back(FacetId{id});
+  return selection;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,112 @@
+#include "approx/slabs/covering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/dense_solve.h"
+#include "core/ids.h"
+
+namespace ndhull {
+namespace {
+
+/// Outward unit normals of the frame's first simplex.
+std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, const Frame& frame,
+                                                       const double* coordinates) {
+  const auto rank = static_cast<Eigen::Index>(space.rank());
+  std::vector<std::vector<double>> normals;
+  for (std::size_t omitted = 0; omitted < frame.simplex.size(); ++omitted) {
+    Eigen::MatrixXd rows(rank, rank);
+    for (std::size_t from = 0, row = 0; from < frame.simplex.size(); ++from) {
+      if (from == omitted) continue;
+      const double* y = coordinates + std::size_t{frame.simplex[from].value} * space.rank();
+      rows.row(static_cast<Eigen::Index>(row++)) = Eigen::Map<const Eigen::RowVectorXd>(y, rank);
+    }
+    const Eigen::VectorXd plane = SquareFactors(rows).solve(Eigen::VectorXd::Ones(rank));
+    normals.emplace_back(space.rank());
+    space.normal_of({plane.data(), space.rank()}, normals.back().data());
+  }
+  return normals;
+}
+
+/// The smallest product of `normal` with a vertex of the simplex. Of its own, not of a measured plane: where
+/// points are many that has no products with all of them.
+double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t simplex,
+              std::span<const double> normal) {
+  double low = HUGE_VAL;
+  for (const PointId id : complex.vertices(SimplexId{simplex})) {
+    const double* z = space.row(space.row_of(id));
+    low = std::min(low, std::inner_product(normal.begin(), normal.end(), z, 0.0));
+  }
+  return low;
+}
+
+}  // namespace
+
+FacetMembers::FacetMembers(const Covering& covering) : begin_(covering.planes.size() + 1, 0) {
+  for (const std::uint32_t facet : covering.facet_of)
+    if (facet != kNone) ++begin_[facet + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
+  rows_.resize(begin_.back());
+  for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) rows_[at[covering.facet_of[row]]++] = row;
+}
+
+FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {
+  FacetClusters clusters;
+  if (covering.planes.empty()) return clusters;
+  const std::size_t rank = space.rank();
+  clusters.cluster_of.assign(covering.facet_of.size(), kNone);
+  std::vector<std::uint32_t> cluster(covering.planes.size(), kNone);
+  for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
+    const FittedPlane& plane = covering.planes[facet];
+    if (plane.height == 0.0) continue;
+    cluster[facet] = clusters.count++;
+    clusters.planes.resize(clusters.count * rank);
+    space.plane_of(plane.normal.data(), plane.height, clusters.planes.data() + cluster[facet] * rank);
+  }
+  for (std::size_t row = 0; row < covering.facet_of.size(); ++row)
+    if (covering.facet_of[row] != kNone) clusters.cluster_of[row] = cluster[covering.facet_of[row]];
+  return clusters;
+}
+
+Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpace& space, const Frame& frame,
+                                const double* coordinates) {
+  const std::vector<std::vector<double>> normals = first_simplex_normals(space, frame, coordinates);
+  Covering covering;
+  covering.facet_of.assign(complex.row_count, kNone);
+  std::vector<double> depth_of(complex.row_count, HUGE_VAL);
+  std::vector<std::uint32_t> highest;  // the simplex that a facet keeps whatever comes
+  PlaneFitWork work;
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) {
+    covering.planes.push_back(measure_plane(space, normals[facet], {}, work));
+    std::uint32_t own = kNone;
+    double least = HUGE_VAL;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (complex.state[row] != SimplexState::kLive) continue;
+      const double depth = covering.planes[facet].height - low_of(complex, space, row, normals[facet]);
+      if (depth < least && std::find(highest.begin(), highest.end(), row) == highest.end()) {
+        least = depth;
+        own = row;
+      }
+      if (depth >= depth_of[row]) continue;
+      depth_of[row] = depth;
+      covering.facet_of[row] = facet;
+    }
+    highest.push_back(own);
+  }
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) covering.facet_of[highest[facet]] = facet;
+  for (std::uint32_t facet = 0; facet < normals.size(); ++facet) {
+    FittedPlane& plane = covering.planes[facet];
+    plane.low = HUGE_VAL;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (covering.facet_of[row] == facet)
+        plane.low = std::min(plane.low, low_of(complex, space, row, plane.normal));
+    }
+    covering.widest = std::max(covering.widest, plane.width());
+  }
+  return covering;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,48 @@
+// Facets as sets of simplices with planes, before they are put in order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "approx/facets/facet_layout.h"
+#include "approx/slabs/plane_fit.h"
+#include "approx/slabs/width_space.h"
+#include "core/frame.h"
+#include "core/simplicial_complex.h"
+
+namespace ndhull {
+
+/// Was it, or is it that of a simplex which stayed alone?
+inline bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
+
+/// Which simplices make up which facet, with the planes.
+struct Covering {
+  std::vector<std::uint32_t> facet_of;  ///< per row of the complex; kNone in free rows
+  /// One a facet; height 0: a simplex that stayed alone, with its own normal, and was not measured.
+  std::vector<FittedPlane> planes;
+  double widest = 0.0;  ///< [distance] over the points of the WidthSpace, of the measured ones
+};
+
+/// The simplices of each facet, ascending. Cost  O(rows).
+class FacetMembers {
+ public:
+  explicit FacetMembers(const Covering& covering);
+  std::span<const std::uint32_t> of(std::size_t facet) const {
+    return {rows_.data() + begin_[facet], begin_[facet + 1] - begin_[facet]};
+  }
+
+ private:
+  std::vector<std::uint32_t> begin_, rows_;
+};
+
+/// The facets that are no mere simplex with its own plane, with their planes in the frame.
+FacetClusters clusters_of(const Covering& covering, const WidthSpace& space);
+
+/// The fewest facets that a hull can have: one for each facet of the frame's first simplex, whose normals
+/// bound a region, none empty. Every simplex goes where it lies highest. Shapes  coordinates: points x rank,
+/// in the frame.
+Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpace& space, const Frame& frame,
+                                const double* coordinates);
+
+}  // namespace ndhull

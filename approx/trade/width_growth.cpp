@@ -1,0 +1,215 @@
+// How far an approximate hull grows: the part of approx/trade/approximation.h that comes before its facets.
+#include "approx/geometry/length_unit.h"
+#include "approx/growth/outside_points.h"
+#include "approx/trade/approximation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ndhull {
+namespace {
+
+/// Simplices that are worth growing for an approximate hull, of which merging takes as long again: so many
+/// once nothing is further outside than half of the width, so many once three quarters will do, and so many
+/// once nearly all of it has to. The last takes a quarter of the simplices less than three quarters do, and
+/// makes a quarter of the facets more.
+constexpr std::uint64_t kEnoughAtHalf = 180'000, kManySimplices = 250'000, kVeryManySimplices = 4'000'000;
+constexpr double kHalf = 0.5, kGrowthShareAtMost = 0.75, kGrowthShareOfHuge = 0.85;
+/// Of W alone: what is left out is no further above any simplex, where that is affordable. The outer planes
+/// of a hull come in steps, one vertex each: to be clearly below W costs 3 % more facets on 10^5 sphere
+/// points in 6-d with W 0.2, and 1 % of the width is gained.
+constexpr double kAloneShare = 0.995;
+/// Rounds of points that go back before the best so far is taken: those that are where they were not located,
+/// and those that a search finds, few at a time.
+constexpr int kRounds = 24, kSearchRounds = 96;
+/// Simplices from which on growth is asked whether the hull is found without them.
+constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 18;
+/// [bytes] A complex may be so large, or so many times the input, of inputs of this size and more. Below, the
+/// time that stars take more is not worth the memory.
+constexpr double kMostComplexBytes = 0x1p29, kMostOfInput = 2.0, kLargeInput = 0x1p26;
+
+}  // namespace
+
+/// Where the points left out are, to a twentieth of what growth left out.
+void Approximation::locate_left_out(double outside_width) {
+  growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
+}
+
+void Approximation::grow_outside_width() {
+  const double width = lengths_.outside_width;
+  hull_.chosen.outside_width = width;
+  if (width > 0.0) growth_.grow_from_some();  // a search over all follows
+  if (growth_.grow_to(width, 0, 0.0) && width > 0.0 && search_outside(width)) return;
+  locate_left_out(width);
+  for (int round = 0; round < kRounds && !growth_.is_limited() && growth_.repair(); ++round) {
+    growth_.grow_to(width, 0, 0.0);
+    locate_left_out(width);
+  }
+}
+
+/// Takes in what is further above any simplex. True when all is known of the points left out, and nothing is
+/// to be located.
+bool Approximation::search_outside(double width) {
+  // Where most points are inside, proving that leaves few to search. Merging has to know where they are; else
+  // the search of many is the certificate as well: of few points and the vertices the facet table has that
+  // sooner. To locate a point takes about as long as to search them all for one plane.
+  constexpr std::size_t kWorthCertifying = 1 << 13;
+  const bool merges = accuracy_.merges_neighbours();
+  bool certifies = !merges;
+  std::vector<PointId> points = growth_.unproven_points();
+  const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
+  if (merges || 2 * points.size() < growth_.work().point_count || points.size() < planes) {
+    locate_left_out(width);
+    certifies = !merges && growth_.left_out().size() >= kWorthCertifying;
+    points = growth_.left_out_points(certifies);
+  }
+  const std::size_t count = points.size();
+  if (!growth_.may_search(count)) return false;
+  OutsideSearch search(growth_, std::move(points), certifies);
+  const double wanted = merges ? width : kAloneShare * width;
+  bool has_grown = false;
+  for (int round = 0; round < kSearchRounds && search.put_back_above(width, wanted); ++round) {
+    has_grown = true;
+    if (!growth_.grow_to(wanted, 0, 0.0) || !growth_.may_search(count)) return false;
+  }
+  if (!certifies) return !has_grown;
+  const double gauge = search.largest_gauge();
+  growth_.certify_by_search(search.points(), gauge, search.take_highest());
+  return true;
+}
+
+/// Growth for slabs of this width; then it is known where the points left out are.
+void Approximation::grow_for_width(double outside_width, double slab) {
+  if (lengths_.outside_width > 0.0 || outside_width == 0.0) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
+  } else {
+    grow_in_stages(outside_width, slab);
+  }
+  locate_left_out(outside_width);
+  for (int round = 0; round < kRounds && outside_width == 0.0 && !growth_.is_limited() && growth_.repair();
+       ++round) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
+    locate_left_out(outside_width);
+  }
+}
+
+/// Where simplices become many, points further outside are left out.
+void Approximation::grow_in_stages(double outside_width, double slab) {
+  const GrowthWork& work = growth_.work();
+  const auto simplices = [&] { return work.complex.row_count - work.free_count; };
+  const auto has_paused = [&](std::uint64_t enough, double height) {
+    return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
+  };
+  if (!has_paused(kEnoughAtHalf, kGrowthShareOfHuge * slab) || simplices() > kVeryManySimplices) return;
+  if (!has_paused(kEnoughAtHalf, kGrowthShareAtMost * slab)) return;
+  constexpr std::uint64_t kStep = kEnoughAtHalf / 16;
+  while (simplices() < kManySimplices && growth_.furthest_height() > kHalf * slab)
+    if (!has_paused(std::min<std::uint64_t>(kManySimplices, simplices() + kStep), HUGE_VAL)) return;
+}
+
+/// Nearly all points are vertices, so that the rest of them costs less than what they would be too far above.
+/// Not where simplices are limited: what is there fits.
+bool Approximation::leaves_out_hardly_any(double outside_width) const {
+  constexpr double kHardlyAny = 1.0 / 12.0;  // in parts of the vertices
+  return lengths_.outside_width == 0.0 && outside_width > 0.0 && has_left_out_ &&
+         growth_.options().limits.max_facets == 0 && space_->share_of_others() < kHardlyAny;
+}
+
+/// How far outside points are left out once one of them was too far above a simplex that no slab holds, and
+/// growth takes it in: less from some rounds on, and nothing in the last.
+double Approximation::less_outside(double outside_width, int round) const {
+  constexpr int kPatience = 4;
+  constexpr double kLess = 0.7;
+  if (lengths_.outside_width > 0.0) return outside_width;
+  if (leaves_out_hardly_any(outside_width) || round + 1 == kWidthRounds) return 0.0;
+  return round < kPatience ? outside_width : kLess * outside_width;
+}
+
+/// Puts back what was left out and is further outside than this.
+void Approximation::take_in(double outside_width) {
+  GrowthWork& work = growth_.work();
+  work.options.outside_width = outside_width;
+  std::vector<LocatedPoint> above;
+  for (LocatedPoint point : growth_.left_out()) {
+    const auto plane = work.complex.plane(point.simplex);
+    const double* y = growth_.coordinates() + std::size_t{point.point.value} * work.rank;
+    point.gauge = std::inner_product(plane.begin(), plane.end(), y, -1.0);
+    if (point.gauge > 4.0 * work.options.shift &&
+        height_above(work, point.simplex.value, point.gauge) > outside_width)
+      above.push_back(point);
+  }
+  growth_.put_back(above);
+}
+
+/// Takes in these points, however little they are outside: also where growth for slabs of this width would
+/// pause.
+void Approximation::take_in(std::span<const PointId> left_out, double outside_width, double slab) {
+  for (std::size_t round = 0; round <= left_out.size() && !growth_.is_limited(); ++round) {
+    const std::vector<LocatedPoint> above = located(left_out);
+    if (above.empty()) return;
+    growth_.put_back(above, slab);
+    grow_for_width(outside_width, slab);
+  }
+}
+
+/// Is it asked for in a way that stars can answer, which have no early end?
+bool Approximation::may_do_without_complex() const {
+  const HullOptions& options = growth_.options();
+  return !has_too_many_vertices_ && lengths_.width > 0.0 && accuracy_.facets == 0 &&
+         lengths_.outside_width == 0.0 && growth_.frame().rank >= 3 && !options.wants_simplices &&
+         options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+}
+
+/// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
+/// large input.
+bool Approximation::find_stars(double outside_width, double slab) {
+  const std::uint64_t most_rows = growth_.most_rows();
+  if (!may_do_without_complex() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
+  const std::uint64_t enough = most_rows == 0
+                                   ? kRowsBeforeStars
+                                   : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
+  // In steps: where little is left to grow, growth ends before that.
+  for (std::uint64_t rows = std::min(enough, kEnoughAtHalf);; rows = std::min(enough, 2 * rows)) {
+    const bool is_grown = growth_.grow_to(outside_width, rows, HUGE_VAL);
+    if (growth_.is_limited()) return false;
+    const bool is_near = is_grown || growth_.furthest_height() <= kGrowthShareOfHuge * slab;
+    if (is_near && !has_run_out_before_) return false;
+    if (is_near || rows == enough) break;
+  }
+  // Heights fall about so fast as simplices become more: balls and gaussian points, somewhat slower than
+  // spheres. All points that are left may be vertices; simplices rise about with their square then.
+  const GrowthWork& work = growth_.work();
+  const double rank = static_cast<double>(work.rank);
+  const double vertices = static_cast<double>(work.counters.insertions) + rank + 1.0;
+  const double more = 1.0 + static_cast<double>(work.points_outside) / vertices;
+  const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab));
+  // Vertices rise with about half of that exponent on spheres; on other sets slower.
+  has_too_many_vertices_ =
+      vertices * std::min(more, std::pow(fall, (rank - 1.0) / 4.0)) > static_cast<double>(kMostStarVertices);
+  if (has_too_many_vertices_) return false;
+  const double rows = static_cast<double>(enough) * std::min(more * more, std::pow(fall, (rank - 1.0) / 3.0));
+  const bool is_too_large =
+      input_bytes_ >= kLargeInput &&
+      rows * (16.0 * rank + 5.0) > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
+  const bool has_no_room = most_rows > 0 && rows > static_cast<double>(most_rows);
+  if (!is_too_large && !has_no_room && !has_run_out_before_) return false;
+  return take_star_hull(slab, rows);
+}
+
+/// Goes on without the complex. `rows`: simplices that the hull will about have.
+bool Approximation::take_star_hull(double slab, double rows) {
+  growth_.drop_paused();
+  const double share =
+      rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
+  const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
+  star_hull_ = find_star_hull(growth_, factor_, area.factor, slab, share * slab);
+  if (!star_hull_) return false;
+  hull_.status = HullStatus::kComplete;
+  star_hull_->surface_exponent = area.exponent;
+  hull_.chosen.outside_width = star_hull_->distance;
+  hull_.chosen.slab_width = slab;
+  return true;
+}
+
+}  // namespace ndhull

@@ -1,0 +1,79 @@
+#include "tools/command_line/command_options.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "tools/io/text_source.h"
+
+namespace ndhull {
+namespace {
+
+CLI::Validator number_that(bool (*fits)(double), std::string_view wanted) {
+  const auto check = [fits, wanted](const std::string& text) -> std::string {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    // What is no finite number is null.
+    if (parse_number(text.data(), end, value) == end && fits(value)) return {};
+    return fmt::format("found \"{}\", expected {}", printable(text), wanted);
+  };
+  return {check, ""};
+}
+
+}  // namespace
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
+    std::size_t value = 0;
+    const char* const end = text.data() + text.size();
+    const bool is_number = parse_count(text.data(), end, value) == end && !text.empty();
+    if (is_number && value >= least && value <= most) return {};
+    const std::string range =
+        most == UINT64_MAX ? fmt::format("of at least {}", least) : fmt::format("from {} to {}", least, most);
+    return fmt::format("found \"{}\", expected a whole number {}, in digits", printable(text), range);
+  };
+  return {check, ""};
+}
+
+CLI::Validator positive_number() {
+  return number_that([](double value) { return value > 0.0; }, "a number above 0");
+}
+
+CLI::Validator number_from_0() {
+  return number_that([](double value) { return value >= 0.0; }, "a number, 0 or above");
+}
+
+CLI::Validator path_name() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "found an empty name, expected a file, or - for standard input or output" : "";
+  };
+  return {check, ""};
+}
+
+CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
+  return command
+      .add_option_function<std::string>(
+          "--columns", [&columns](const std::string& list) { columns = ColumnChoice(list); },
+          "the columns that are coordinates, by number from 1 or by name of the header, as in mass,4,6-9; "
+          "others of a table may hold anything")
+      ->type_name("LIST");
+}
+
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind) {
+  CLI::Option* const planes = command
+                                  .add_option("--planes", path,
+                                              "write the facets' planes a.x + b <= 0, rows a b in input "
+                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
+                                  ->type_name("FILE")
+                                  ->check(path_name());
+  command
+      .add_option("--plane-kind", kind,
+                  "outer (no input point is above; default), mean, or inner (no vertex is below)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->needs(planes);
+}
+
+std::string example(const std::string& text) { return "Example: " + text; }
+
+}  // namespace ndhull

@@ -1,0 +1,33 @@
+// What the commands' options have in common: checks of what is written, with messages that say what to write.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "tools/io/column_choice.h"
+
+namespace ndhull {
+
+/// A whole number in least .. most, in digits only: CLI11 alone would wrap -1 to the largest one.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most = UINT64_MAX);
+/// A finite number above 0.
+CLI::Validator positive_number();
+/// A finite number, 0 or above.
+CLI::Validator number_from_0();
+/// A path, which is not the empty word.
+CLI::Validator path_name();
+
+/// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
+inline constexpr std::uint64_t kMostThreads = 1024;
+
+/// Adds --columns, of the points.
+CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns);
+
+/// Adds --planes and --plane-kind, of the facets of a hull.
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind);
+
+/// The example at the end of a command's help.
+std::string example(const std::string& text);
+
+}  // namespace ndhull

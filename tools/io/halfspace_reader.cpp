@@ -1,0 +1,149 @@
+// The readers for points do the work: halfspaces are rows of dimension + 1 numbers.
+#include "tools/io/halfspace_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+#include "tools/io/cdd_reader.h"
+#include "tools/io/npy_header.h"
+#include "tools/io/npy_reader.h"
+#include "tools/io/qhull_text_reader.h"
+
+namespace ndhull {
+namespace {
+
+/// b0 + a'.x >= 0 is -a'.x - b0 <= 0. Subtracting from zero instead of negating leaves no minus zeros.
+HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& extension) {
+  CddMatrix matrix = read_cdd(source);
+  const bool is_h = matrix.representation_is_stated ? matrix.h_representation : extension != "ext";
+  if (!is_h) {
+    throw Error(
+        ErrorCode::kBadHeader,
+        fmt::format("{}: found points (V-representation), expected halfspaces (H-representation); use ndhull "
+                    "hull, or state H-representation before begin",
+                    source.name()));
+  }
+  if (matrix.linearity != nullptr) {
+    source.fail(
+        ErrorCode::kBadHeader, matrix.linearity,
+        "found equations (option linearity), expected inequalities only; eliminate one variable for each "
+        "equation");
+  }
+  HalfspaceFile file;
+  const NumberTable& table = matrix.table;
+  file.dimension = table.columns - 1;
+  file.count = table.rows;
+  file.rows.reserve(table.values.size());
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const double* const from = table.values.data() + row * table.columns;
+    for (std::size_t k = 1; k < table.columns; ++k) file.rows.push_back(0.0 - from[k]);
+    file.rows.push_back(0.0 - from[0]);
+  }
+  return file;
+}
+
+/// A point in front of the halfspaces: "d 1" on one line, d numbers, and more behind them. Returns the
+/// place behind the point, or null when there is none.
+const char* read_interior_point(const TextSource& source, std::vector<double>& point) {
+  const char* const start = skip_empty_lines(source, source.begin());
+  const IntegerLine header = read_integer_line(source, start);
+  if (header.count != 2 || header.value[1] != 1 || header.text_is_number) return nullptr;
+  const std::size_t dimension = header.value[0];
+  const char* place = header.next;
+  while (point.size() < dimension && (place = skip_empty_lines(source, place)) != source.end()) {
+    read_number_line(source, place, point);
+  }
+  const bool has_more = skip_empty_lines(source, place) != source.end();
+  // "5 1" and five numbers alone are one halfspace in dimension 4.
+  return point.size() == dimension && has_more ? place : nullptr;
+}
+
+HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& extension) {
+  HalfspaceFile file;
+  std::vector<double> point;
+  const char* const rest = read_interior_point(source, point);
+  NumberTable table;
+  if (rest == nullptr) {
+    table = read_number_text(source, extension);
+  } else {
+    // Line numbers in messages count from the start of the file, so the point becomes blank lines.
+    std::string text(source.begin(), rest);
+    std::replace_if(
+        text.begin(), text.end(), [](char letter) { return letter != '\n'; }, ' ');
+    text.append(rest, source.end());
+    table = read_number_text(TextSource(source.name(), text), extension);
+    if (point.size() + 1 != table.columns) {
+      source.fail(
+          ErrorCode::kBadHeader, skip_empty_lines(source, source.begin()),
+          fmt::format(
+              "found a point in dimension {} before halfspaces of {} columns, expected {}; correct one",
+              point.size(), table.columns, point.size() + 1));
+    }
+    file.interior_point = std::move(point);
+  }
+  file.dimension = table.columns - 1;
+  file.count = table.rows;
+  file.rows = std::move(table.values);
+  return file;
+}
+
+HalfspaceFile read_npy_halfspaces(FileBytes bytes, const std::string& name) {
+  const PointFile points = read_npy(std::move(bytes), name, kKeptFileBytes);
+  const PointView view = points.view();
+  HalfspaceFile file;
+  file.dimension = view.dimension - 1;
+  file.count = view.rows;
+  file.rows.resize(view.rows * view.dimension);
+  for (std::size_t row = 0; row < view.rows; ++row)
+    view.copy_row(row, file.rows.data() + row * view.dimension);
+  return file;
+}
+
+void check(const HalfspaceFile& file) {
+  if (file.dimension == 0) {
+    throw Error(ErrorCode::kDimensionTooLow,
+                fmt::format("{}: found 1 column, expected the normal and the offset; write rows a_1 .. a_d b",
+                            file.path));
+  }
+  const std::size_t columns = file.dimension + 1;
+  for (std::size_t row = 0; row < file.count; ++row) {
+    const auto normal = file.rows.begin() + static_cast<std::ptrdiff_t>(row * columns);
+    const bool is_zero = std::all_of(normal, normal + static_cast<std::ptrdiff_t>(file.dimension),
+                                     [](double component) { return component == 0.0; });
+    if (!is_zero) continue;
+    throw Error(
+        ErrorCode::kBadHalfspace,
+        fmt::format(
+            "{}, halfspace {}: found a zero normal, expected one component other than 0; remove the row",
+            file.path, row + 1));
+  }
+}
+
+}  // namespace
+
+HalfspaceFile read_halfspaces(const std::string& path) {
+  return parse_halfspaces(FileBytes::read(path), path);
+}
+
+HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path) {
+  const std::string name = display_name(path);
+  const std::string extension = extension_of(path);
+  HalfspaceFile file;
+  if (extension == "npy" || looks_like_npy(bytes.view())) {
+    file = read_npy_halfspaces(std::move(bytes), name);
+  } else {
+    const TextSource source = text_source_of(bytes, name);
+    source.require_content();
+    const bool is_cdd = extension == "ine" || extension == "ext" || looks_like_cdd(source);
+    file = is_cdd ? read_cdd_halfspaces(source, extension) : read_text_halfspaces(source, extension);
+  }
+  file.path = name;
+  check(file);
+  return file;
+}
+
+}  // namespace ndhull

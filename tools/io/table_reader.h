@@ -1,0 +1,22 @@
+// CSV, TSV, semicolon- and blank-separated tables of numbers.
+#pragma once
+
+#include "tools/io/column_choice.h"
+#include "tools/io/text_source.h"
+
+namespace ndhull {
+
+/// Reads a table: one row a line, the same number of columns in each.
+///
+/// Format    Separators are told from the first line: semicolon, tab, comma, else blanks. Fields may be
+///           quoted. The first line is a header when none of its fields is a number. Empty lines and
+///           lines that start with # are skipped.
+/// Columns   `choice` says which are read, and in which order; what stands in the others is not looked at.
+/// Throws    kUsage           a column that the table does not have
+///           kEmptyInput      nothing, or nothing but a header
+///           kBadHeader       a header where a column that is read has no name: it is an index, not a
+///           coordinate kBadNumber, kNotFinite, kRaggedRow, with line and column
+/// Cost      one pass.
+NumberTable read_table(const TextSource& source, const ColumnChoice& choice = {});
+
+}  // namespace ndhull
