@@ -39,6 +39,7 @@ class FacetChecker {
         hull_(hull),
         numbers_(hull.numbers()),
         doubtful_(doubtful),
+        is_at_origin_(std::ranges::all_of(hull.reference(), [](double entry) { return entry == 0.0; })),
         zeros_(points.dimension, 0.0),
         point_(points.dimension) {}
 
@@ -143,8 +144,9 @@ class FacetChecker {
       return "the length of the normal of " + facet_name(facet) + ": " + found_and_claimed(length, 1.0);
     });
     // offset = centred_offset - normal . reference, to roundoff: the centred plane's value at the origin.
-    CentredPlane plane = hull_.plane_at(facet, 0.0);
-    const BoundedValue value = plane_value_extended(plane, zeros_);
+    const CentredPlane plane = hull_.plane_at(facet, 0.0);
+    const BoundedValue value =
+        is_at_origin_ ? BoundedValue{plane.offset, 0.0} : plane_value_extended(plane, zeros_);
     const double found = std::fabs(value.value - hull_.offset(facet));
     const double claimed = numbers_.roundoff * plane.unit;
     const double rounding = 4.0 * 0x1p-53 * (claimed + std::fabs(value.value)) + value.error;
@@ -205,6 +207,7 @@ class FacetChecker {
   HullNumbers numbers_;
   DoubtfulSign doubtful_;
   Records records_;
+  bool is_at_origin_;  // where the planes' offsets are centred
   std::vector<double> zeros_, point_;
   std::vector<PointId> simplex_vertices_, own_;
   std::vector<FacetId> simplex_facets_, neighbours_;
