@@ -35,7 +35,7 @@ struct Accuracy {
   std::uint64_t facets = 0;
   FacetObjective objective = FacetObjective::kWidth;  ///< what a target `facets` makes small
   /// For the width of `width` and `facets`; nothing more is looked for where a hull is found without its
-  /// complex (star_hull.h).
+  /// complex (approx/slabs/star_hull.h).
   Effort effort = Effort::kQuick;
   Length outside_width;     ///< growth leaves out points that are less than this outside (W)
   Length centrum_radius;    ///< merge while a centrum is less than this below its neighbour's plane (C)

@@ -62,7 +62,7 @@ struct HullOptions {
   /// the planes are wanted.
   bool certifies_planes = true;
   /// Simplices will be asked for: the hull is not looked for by whole facets
-  /// (core/whole_facets/double_description.h), nor without its complex (star_hull.h).
+  /// (core/whole_facets/double_description.h), nor without its complex (approx/slabs/star_hull.h).
   bool wants_simplices = false;
   /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
   /// once.
@@ -73,7 +73,7 @@ struct HullOptions {
   /// [ratio] growth's smallest inward shift, see GrowthOptions::shift; ten times as large, and again, where
   /// data turn out to be about as rough (core/DESIGN.md), unless it is given below the default.
   double shift = 1e-12;
-  unsigned threads = 0;  ///< for the certificate; 0: all cores. The result does not depend on it.
+  unsigned threads = 0;  ///< of the whole call; 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
@@ -134,9 +134,9 @@ struct HullStatistics {
 /// Widths    outer_offset, inner_offset are in the length unit: input, or unit-cube with that option.
 class Hull {
  public:
-  std::size_t dimension = 0;  ///< columns of the input
-  std::size_t rank = 0;       ///< affine dimension of the input
-  std::size_t point_count = 0;
+  std::size_t dimension = 0;    ///< columns of the input
+  std::size_t rank = 0;         ///< affine dimension of the input
+  std::size_t point_count = 0;  ///< rows of the input
   HullStatus status = HullStatus::kComplete;
   /// Facets were merged for a width. Then a facet may have fewer neighbours than rank, and a vertex, which is
   /// one of the inner hull, fewer facets.
@@ -151,12 +151,13 @@ class Hull {
   /// Of the hull of the input, input units. Beyond the range of doubles: infinite, or 0 or subnormal.
   double area = 0.0;
   double volume = 0.0;
-  double roundoff = 0.0;           ///< [distance] proven rounding error of a distance, length unit
-  double max_outer_offset = 0.0;   ///< [distance] certified, >= 0
-  double min_inner_offset = 0.0;   ///< [distance] certified, <= 0
-  double max_facet_width = 0.0;    ///< [distance]
-  double max_outside_gauge = 0.0;  ///< [ratio]
-  std::uint64_t points_outside = 0;
+  double roundoff = 0.0;          ///< [distance] proven rounding error of a distance, length unit
+  double max_outer_offset = 0.0;  ///< [distance] certified, >= 0
+  double min_inner_offset = 0.0;  ///< [distance] certified, <= 0
+  double max_facet_width = 0.0;   ///< [distance]
+  /// [ratio] s: all input is in the hull of the vertices scaled by 1 + s about the interior point.
+  double max_outside_gauge = 0.0;
+  std::uint64_t points_outside = 0;  ///< input points above some outer plane: 0
   HullStatistics statistics;
   AccuracyChosen chosen;
 
@@ -175,15 +176,15 @@ class Hull {
   double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
   /// Input units, >= 0. Of a merged facet: of the projection of its simplices onto its plane, less what
   /// faces the other way.
-  /// Cost  the first call for an approximate hull makes the areas of all facets (later_areas.h); several
-  /// threads may make it.
+  /// Cost  the first call for an approximate hull makes the areas of all facets (approx/facets/later_areas.h); several
+  ///       threads may make it.
   double area_of(FacetId facet) const { return areas()[facet.value]; }
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
 
   /// Of a simplicial facet the rank ids in the order of its simplex, neighbour k opposite vertex k; of a
   /// merged one sorted ids. Cost  the first call for a facet that is merged, or beside a merged one, lists
-  /// all of these (facet_lists.h); several threads may make it.
+  /// all of these (approx/facets/facet_lists.h); several threads may make it.
   std::span<const PointId> vertices_of(FacetId facet) const;
   std::span<const FacetId> neighbours_of(FacetId facet) const;
   std::span<const SimplexId> simplices_of(FacetId facet) const;
@@ -194,7 +195,7 @@ class Hull {
   /// The facets' simplices, compacted; without planes: those of the facets are here. Throws, as the two calls
   /// above that name simplices do, Error kTooManySimplices: a hull that was found without them has more than
   /// 2^27, or rounding makes others of its vertices than it was found with. Cost  the first call for such a
-  /// hull makes them (later_simplices.h), with the memory and time of growth; several threads may make it.
+  /// hull makes them (approx/facets/later_simplices.h), with the memory and time of growth; several threads may make it.
   const SimplicialComplex& simplices() const;
   bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
 

@@ -37,7 +37,7 @@ double default_joggle(const PointView& points);
 /// Growth met a decision within rounding, or the points span fewer dimensions than they have. The rounding of
 /// a decision is taken as 2^-52 (d^1.5 + 1) relative to the hull's own size: joggle_roundoff's share of half
 /// an extent. Counted are decisions whether a facet is visible from a point that is added, the bulk of what
-/// Qhull counts; it also counts nearly singular planes, of which there are none here (core/DESIGN.md).
+/// Qhull counts; it also counts nearly singular planes, of which there are none here (approx/DESIGN.md, Joggled input).
 bool has_precision_problem(const Hull& hull);
 
 /// Options for hulls whose decisions are watched: facets stay simplices unless a width is asked for.
@@ -51,8 +51,7 @@ std::vector<double> joggled_points(const PointView& points, double size, std::ui
 ///
 /// Returns   also after a limit or a stop was hit: Hull::status tells.
 /// Throws    Error as convex_hull; kUsage for a size below joggle_roundoff, with both; kUsage after 50
-/// joggles
-///           that all had a problem.
+///           joggles that all had a problem.
 /// Cost      of convex_hull, once for each joggle.
 JoggledHull joggled_hull(const PointView& points, const HullOptions& options, const JoggleOptions& joggle);
 

@@ -49,8 +49,7 @@ struct ReportContext {
 /// Writes the report: a JSON object of a few dozen lines, and with facet_list one line a facet.
 ///
 /// Keys      as the documentation of `ndhull hull --report` lists them; lengths are in `length_unit`, offsets
-/// of
-///           planes, normals, areas and volumes in input units.
+///           of planes, normals, areas and volumes in input units.
 /// Numbers   read back as the same doubles. A ratio without a divisor, and what is not known, is null.
 /// Planes    facet_list: distance(x) = normal.x + offset; the certified plane is
 ///           normal.(x - reference) + centred_offset, which is the same up to roundoff.

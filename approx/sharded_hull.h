@@ -24,9 +24,9 @@ void rename_points(Hull& hull, std::span<const std::uint32_t> ids, std::size_t p
 /// The hull of all parts. Called by all processes; the first one gets it, the others nothing.
 ///
 /// Result    planes, facets and every number but times are those of convex_hull of the whole set, bit for
-/// bit. Method    all processes grow the same hull to drop points (approx/reduction/point_reduction.h), each
-/// proves its own
-///           points inside; what is kept goes to the first one, which computes the hull of it.
+///           bit.
+/// Method    all processes grow the same hull to drop points (approx/reduction/point_reduction.h), each proves
+///           its own points inside; what is kept goes to the first one, which computes the hull of it.
 /// Throws    Error as convex_hull does, in the first process. What a process throws on its way there leaves
 ///           the others waiting: the caller has to end them.
 std::optional<ShardedHull> convex_hull_of_shards(const PointShards& shards, const HullOptions& options);

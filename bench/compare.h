@@ -38,11 +38,10 @@ struct Comparison {
 ///
 /// Seconds       medians; noise is the range of the rounds over their median, of the noisier side.
 /// Counted work  created simplices and insertions (they are the same on every machine), and instructions
-/// where both
-///               have them: more than 1 % more is a regression.
+///               where both have them: more than 1 % more is a regression.
 /// Facets        of exact hulls any change is a regression; of approximate ones more facets, or a wider
-/// widest facet. Ends          a run that was done or complete before and is not after is a regression
-/// ("done", 1 and 0).
+///               widest facet.
+/// Ends          a run that was done or complete before and is not after is a regression ("done", 1 and 0).
 Comparison compare_records(const std::vector<RunRecord>& before, const std::vector<RunRecord>& after,
                            const CompareOptions& options);
 

@@ -42,7 +42,8 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
 /// merges and finds the outer planes as well; reading, checks of the output and printing are not in it.
 /// Throws    std::runtime_error with Qhull's exit code and first line of message.
 /// Planes    `outer_planes`, where given, gets a row normal, offset for each facet, raised to its outer
-/// plane. Leaks     Qhull's memory: call it in a child process.
+///           plane.
+/// Leaks     Qhull's memory: call it in a child process.
 HullRun run_qhull(const BenchInput& input, const std::string& options,
                   std::vector<double>* outer_planes = nullptr);
 

@@ -53,8 +53,7 @@ struct RunLimits {
 ///
 /// Returns   the records of the plan, those of `earlier` first; runs of other plans are left out.
 /// Limits    a run beyond a limit is a record that says so. Larger sets of the same family (no fewer points,
-/// no
-///           fewer dimensions) are then not tried: their end is "skipped", with the reason.
+///           no fewer dimensions) are then not tried: their end is "skipped", with the reason.
 /// Throws    Error kUsage when the plan names an engine that there is not; what RecordFile::write throws.
 /// Progress  one line a run: its number, what it is, what came out, an estimate of the seconds left from what
 ///           similar runs took.

@@ -2,9 +2,8 @@
 // column. Chebyshev centres, facets hit by rays and planes of least width are such programs.
 //
 // Papers  Dantzig, Wolfe. Decomposition principle for linear programs. Operations Research 8(1), 1960
-// (columns
-//         from a search). Dantzig, Orden, Wolfe. The generalized simplex method. Pacific J. Math. 5, 1955
-//         (ties settled by a perturbation of the right side that is never given a size).
+//         (columns from a search). Dantzig, Orden, Wolfe. The generalized simplex method. Pacific J. Math. 5,
+//         1955 (ties settled by a perturbation of the right side that is never given a size).
 #pragma once
 
 #include <Eigen/Core>
@@ -76,11 +75,9 @@ struct LpResult {
 ///         so that a caller with many programs can price them together. `solve_lp` is that loop.
 /// Scale   rows and columns should be of size 1 or so: tolerances are relative to the largest terms.
 /// Ties    of the ratio test are settled by a second right side, a random vector (always the same one) that
-/// is
-///         infinitely smaller than the first: no cycling on degenerate programs.
+///         is infinitely smaller than the first: no cycling on degenerate programs.
 /// Rounding  Columns that are parallel but for 1e-11 of their size may be exchanged without end. After 250
-/// pivots
-///         and 25 a row the tolerances are 100 times larger, after twice as many 10,000 times: `pivots` says
+///         pivots and 25 a row the tolerances are 100 times larger, after twice as many 10,000 times: `pivots` says
 ///         so.
 /// Cost    O(rows^2) a pivot, and O(rows^3) for each of the regular refactorisations.
 class ColumnSimplex {

@@ -13,18 +13,16 @@ namespace ndhull {
 /// Solves for the plane through each simplex's own vertices and the volume of its cone to the origin.
 ///
 /// Shapes  points: point_count x rank (the frame); determinants: complex.row_count, the determinant of the
-/// vertex
-///         rows = +-rank! times the volume of the cone. The rows are oriented alike, so the sign is the same
-///         for all but simplices that are folded back over others; with signs their sum is right even then.
+///         vertex rows = +-rank! times the volume of the cone. The rows are oriented alike, so the sign is
+///         the same for all but simplices that are folded back over others; with signs their sum is right
+///         even then.
 /// Planes  of simplices with a shifted vertex (`is_shifted`, one a point; empty: none) are replaced by the
-/// solved
-///         ones, except where the simplex is so thin that the two differ by more than 1e-6: such a simplex
-///         has no plane of its own to speak of.
+///         solved ones, except where the simplex is so thin that the two differ by more than 1e-6: such a
+///         simplex has no plane of its own to speak of.
 /// Cost    O(rank^3) a simplex, eight simplices at a time. Gaussian elimination, with partial pivoting for
-/// simplices
-///         whose planes are replaced, and where without it the solved plane differs from growth's by more
-///         than 1e-11 or a diagonal entry below 1e-4 is met. What a simplex gets does not depend on those
-///         beside it.
+///         simplices whose planes are replaced, and where without it the solved plane differs from growth's
+///         by more than 1e-11 or a diagonal entry below 1e-4 is met. What a simplex gets does not depend on
+///         those beside it.
 void solve_simplices(SimplicialComplex& complex, const double* points,
                      std::span<const std::uint8_t> is_shifted, std::span<double> determinants);
 

@@ -19,8 +19,8 @@ namespace ndhull {
 struct LocatedPoint {
   PointId point;
   SimplexId simplex;
-  double gauge =
-      0.0;  ///< proven upper bound on (scale at which the hull holds the point) - 1; +inf: no proof
+  /// Proven upper bound on (scale at which the hull holds the point) - 1; +inf: no proof.
+  double gauge = 0.0;
   double slack = 0.0;  ///< the part of it that covers negative coordinates and rounding
 };
 

@@ -17,8 +17,7 @@ namespace ndhull {
 /// Error   each dot product is a chain of fused multiply-adds: at most gamma_dimension sum |n_k x_k|
 ///         (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5).
 /// Cost    facets x points x dimension fused multiply-adds, at close to the machine's peak. Where the facets'
-/// own
-///         vertices are known, core/search/highest_dots.h needs less.
+///         own vertices are known, core/search/highest_dots.h needs less.
 void max_dots(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
               std::span<double> max_dot);
 
@@ -42,8 +41,7 @@ void listed_dots(std::size_t dimension, std::span<const double> normals, std::sp
 /// side is less than `tolerance` (a gauge) below the other side's plane.
 ///
 /// Shapes  points: any number of rows x rank; looks_at: row_count, not 0 for the simplices to look at;
-/// is_flat:
-///         row_count, set to 1 for each simplex found, else untouched.
+///         is_flat: row_count, set to 1 for each simplex found, else untouched.
 /// Cost    rank plane evaluations and rank random reads of neighbours a simplex looked at.
 void mark_flat(const SimplicialComplex& complex, const double* points, double tolerance,
                std::span<const std::uint8_t> looks_at, std::span<std::uint8_t> is_flat);

@@ -5,8 +5,7 @@
 //   double     x_k - r_k and each product add one relative error u to a term, the d + 1 additions at most
 //              (d + 1) u: (d + 3) u S. The bound takes (d + 8) u S, which covers the rounding of S itself.
 //   extended   the difference x - r is a pair without error. A product of pair and double errs by at most 2
-//   u^2
-//              of itself, an addition of pairs by at most 4 u^2 (|a| + |b|) in absolute terms, also where
+//              u^2 of itself, an addition of pairs by at most 4 u^2 (|a| + |b|) in absolute terms, also where
 //              they cancel. Partial sums are at most S (1 + tiny), so the total is below (8 d + 24) u^2 S;
 //              the bound takes (d + 4) 2^-100 S = 64 (d + 4) u^2 S.
 // Where no operation on pairs loses a bit, as with integers and most points exactly on a plane, error is 0.

@@ -51,8 +51,7 @@ struct HullRequest {
 /// Returns  0; 2 when a claim of the hull failed, which is said on standard error and nothing is written;
 ///          130 when Ctrl-C came: what there is was written.
 /// Throws   Error as read_points, convex_hull and the writers do; kUsage when two outputs want standard
-/// output
-///          or the same file, kFileWrite before anything is computed when an output cannot be written.
+///          output or the same file, kFileWrite before anything is computed when an output cannot be written.
 int run_hull(const HullRequest& request);
 
 }  // namespace ndhull

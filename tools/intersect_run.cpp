@@ -13,8 +13,8 @@
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
-#include "tools/intersection_writer.h"
 #include "tools/io/halfspace_reader.h"
+#include "tools/io/intersection_writer.h"
 #include "tools/io/output_file.h"
 #include "tools/io/point_writer.h"
 

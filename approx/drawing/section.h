@@ -63,11 +63,9 @@ enum class ShellKind { kInner, kOuter };
 ///
 /// kOuter    bounded by the planes at the outer offsets: the hull and all input points of the flat are in it.
 /// kInner    bounded by the planes at the inner offsets: it is part of the hull. (A ray from the centre
-/// leaves
-///           the hull through a simplex of some facet, which is not below that facet's inner plane.)
+///           leaves the hull through a simplex of some facet, which is not below that facet's inner plane.)
 /// Returns   one face for each facet that the flat cuts there; none when an inner plane is not clearly above
-/// the
-///           centre: then the inner planes bound nothing around it.
+///           the centre: then the inner planes bound nothing around it.
 /// Throws    Error kUsage when the planes leave the section open, as those of some facets only do.
 /// Precondition  the axes lie in the subspace that the points span.
 std::optional<Shell> section_shell(const CentredFacets& facets, const DrawingAxes& axes, ShellKind kind);

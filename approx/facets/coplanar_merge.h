@@ -16,11 +16,10 @@ namespace ndhull {
 /// Groups the simplices into facets.
 ///
 /// Method    A ridge is flat when the opposite vertex of either side is less than `tolerance` below the
-/// other's
-///           plane. Only where a vertex was shifted can one be: elsewhere every decision was clearer. Seeds
-///           are taken by area, largest first: the largest simplex of a flat has its best plane. A facet
-///           grows from its seed over neighbours whose vertices are within the tolerance of the seed's plane,
-///           so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
+///           other's plane. Only where a vertex was shifted can one be: elsewhere every decision was clearer.
+///           Seeds are taken by area, largest first: the largest simplex of a flat has its best plane. A
+///           facet grows from its seed over neighbours whose vertices are within the tolerance of the seed's
+///           plane, so flats do not creep around a curve. Its plane is then fitted to all its vertices (least
 ///           squares). Where most simplices have a shifted vertex, flats are found a plane at a time first
 ///           (flat_facets.h). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Shapes    is_shifted: one a point; determinants: one a simplex.

@@ -57,10 +57,9 @@ struct CoveredPoints {
 ///           facets', to simplex f. Planes and determinants are consumed: planes are turned into the normals
 ///           in place where the shapes allow.
 /// Proof     outer: largest computed n.(x - reference) + offset over the certificate points, plus a bound on
-/// the
-///           rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes involved). A
-///           point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a plane.
-///           What is known for a normal that differs is raised by the sum of |differences| x largest.
+///           the rounding of the subtraction, the dot product and the sum (gamma_{d+3} of the sizes
+///           involved). A point of the hull scaled by 1 + s is at most (1 + s) outer + s height above a
+///           plane. What is known for a normal that differs is raised by the sum of |differences| x largest.
 /// Cost      at most facets x points x dimension fused multiply-adds (core/search/highest_dots.h,
 ///           core/search/furthest_points.h); where the products are known, dimension for each facet.
 FacetTable make_facet_table(SimplicialComplex& complex, FacetLayout& layout, const Frame& frame,

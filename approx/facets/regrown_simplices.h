@@ -17,7 +17,7 @@ class RegrownSimplices : public LaterSimplices {
  public:
   /// Shapes  coordinates: vertices x rank, the hull of which holds 0. ids: the points that these are.
   ///         facet_vertices, sizes: of each facet numbers of vertices and simplices. turns: in which order
-  ///         facets took their simplices (row_cover.h).
+  ///         facets took their simplices (approx/slabs/row_cover.h).
   RegrownSimplices(std::size_t rank, std::vector<double> coordinates, std::vector<std::uint32_t> ids,
                    IdRows facet_vertices, std::vector<std::uint32_t> sizes, std::vector<std::uint32_t> turns)
       : rank_(rank),

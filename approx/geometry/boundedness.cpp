@@ -7,8 +7,8 @@
 
 #include "approx/geometry/even_normals.h"
 #include "approx/geometry/subspace.h"
+#include "core/column_table.h"
 #include "core/error.h"
-#include "core/search/column_table.h"
 
 namespace ndhull {
 namespace {

@@ -14,8 +14,7 @@ namespace ndhull {
 /// Foresees what a hull will need after growth, from what growth needed so far.
 ///
 /// Time    Each simplex costs some share of what making it did; the shares were measured in 5-d to 10-d. What
-/// a
-///         point costs is measured on a few points whenever the hull has doubled.
+///         a point costs is measured on a few points whenever the hull has doubled.
 /// Memory  Counted, not measured: tables of growth, then of facets, and the points.
 class WorkLimits {
  public:

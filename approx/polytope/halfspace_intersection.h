@@ -90,14 +90,12 @@ struct HalfspaceIntersection {
 ///
 /// Shapes    halfspaces: rows x (dimension + 1), each a_1 .. a_d, b; normals of any length but zero.
 /// Method    A point inside, by linear programs (halfspace_region.h); about a well centred one each plane is
-/// a
-///           dual point, and the facets of their hull are the vertices. Vertices are refined on the planes as
-///           given, by distances summed in twice the precision.
+///           a dual point, and the facets of their hull are the vertices. Vertices are refined on the planes
+///           as given, by distances summed in twice the precision.
 /// Merged    Vertices that differ by no more than the rounding of the planes' own numbers, or that the dual
 ///           hull's coplanar merging holds for one, are one vertex with all their halfspaces.
 /// Throws    Error kBadHalfspace a zero normal, or an interior point that is not inside, with the halfspace
-/// and
-///           the distance, or a region too long for doubles; kNotFinite; kEmptyInput no rows; kUsage an
+///           and the distance, or a region too long for doubles; kNotFinite; kEmptyInput no rows; kUsage an
 ///           interior point of another dimension; kDimensionTooHigh rank above kMaxRank.
 /// Cost      linear programs with rank rows, then the hull of the dual points; `measure`: see
 ///           measure_polytope.

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "approx/geometry/even_normals.h"
+#include "core/column_table.h"
 #include "core/dense_solve.h"
 #include "core/dense_views.h"
 #include "core/error.h"
-#include "core/search/column_table.h"
 
 namespace ndhull {
 namespace {
@@ -20,8 +20,6 @@ using Eigen::VectorXd;
 
 /// [ratio] A unit normal with less than this in the subspace is orthogonal to it: some thousand roundings.
 constexpr double kParallel = 1e-12;
-/// Roundings of the deciding planes within which a radius is 0.
-constexpr double kFlatRoundings = 32.0;
 /// Programs that are solved one after the other for a ball, each about the last one's centre.
 constexpr int kPasses = 3;
 /// [ratio] Weights of a combination, which sum to 1, that are more than rounding.
@@ -45,7 +43,7 @@ Error too_parallel_planes() {
 
 class RegionFinder {
  public:
-  explicit RegionFinder(const HalfspaceSet& halfspaces) : halfspaces_(halfspaces) {
+  explicit RegionFinder(const HalfspaceSet& halfspaces) : halfspaces_(halfspaces), equations_(halfspaces) {
     const auto dimension = static_cast<Index>(halfspaces.dimension());
     point_ = VectorXd::Zero(dimension);
     region_.directions = MatrixXd::Identity(dimension, dimension);
@@ -73,13 +71,9 @@ class RegionFinder {
   }
 
  private:
-  double tolerance(std::uint32_t id) const {
-    return kFlatRoundings * halfspaces_.roundoff(id, as_span(point_));
-  }
+  double tolerance(std::uint32_t id) const { return flat_tolerance(halfspaces_, id, point_); }
 
-  VectorXd unit_normal(std::uint32_t id) const {
-    return as_vector(halfspaces_.normal(id)) / halfspaces_.length(id);
-  }
+  VectorXd unit_normal(std::uint32_t id) const { return unit_normal_of(halfspaces_, id); }
 
   /// Planes that are parallel to the subspace bound nothing in it: they hold everywhere, or nowhere.
   LocalPlanes local_planes() {
@@ -96,12 +90,14 @@ class RegionFinder {
         heights[kept++] = height / length;
         planes.ids.push_back(id);
         planes.lengths.push_back(length);
-      } else if (height < -tolerance(id)) {
+        continue;
+      }
+      const auto [at_equations, rounding] = equations_.height_at(point_, id);
+      if (at_equations < -rounding) {
         prove_empty({{id, 1.0}});
         return planes;
-      } else if (height <= tolerance(id)) {
-        region_.equalities.push_back(id);
       }
+      if (at_equations <= rounding) region_.equalities.push_back(id);
     }
     planes.basis = directions;
     planes.normals = normals.topRows(kept);
@@ -126,6 +122,7 @@ class RegionFinder {
       const VectorXd duals = as_vector(ball.duals).head(rank), before = point_;
       const double radius = planes.heights.minCoeff();
       point_ += planes.basis * (is_open ? outwards(planes, duals) : duals);
+      equations_.hold(point_);
       set_heights(planes);
       if (!is_open && pass > 0 && planes.heights.minCoeff() < radius) {  // rounding had led away
         point_ = before;
@@ -135,17 +132,54 @@ class RegionFinder {
       region_.radius = std::numeric_limits<double>::infinity();
       return planes.heights.minCoeff() > 0.0;
     }
-    tight_.clear();
-    objective_ = ball.objective;
-    roundoff_ = 0.0;
-    for (std::size_t k = 0; k < ball.basis.size(); ++k) {
-      if (!ball.basis[k].valid() || ball.values[k] <= kWeightRoundoff) continue;
-      const std::size_t row = ball.basis[k].value;
-      tight_.push_back({planes.ids[row], ball.values[k] / planes.lengths[row]});
-      roundoff_ = std::max(roundoff_, tolerance(planes.ids[row]) / planes.lengths[row]);
-    }
+    find_tight(planes, ball);
     region_.radius = planes.heights.minCoeff();
     return region_.radius > roundoff_;
+  }
+
+  /// The planes that hold the ball, with weights for which their normals sum up to 0: the program's are known
+  /// to its own rounding, that of planes as far away as those of its basis without weight. Heights above the
+  /// present point, weighted so, have the rounding of these planes alone.
+  void find_tight(const LocalPlanes& planes, const LpResult& ball) {
+    constexpr double kSumRoundoff = 1e-13;
+    std::vector<std::size_t> rows;
+    std::vector<double> weights;
+    for (const double least : {kWeightRoundoff, 0.0}) {
+      rows.clear();
+      weights.clear();
+      for (std::size_t k = 0; k < ball.basis.size(); ++k) {
+        if (!ball.basis[k].valid() || ball.values[k] <= least) continue;
+        rows.push_back(ball.basis[k].value);
+        weights.push_back(ball.values[k]);
+      }
+      const VectorXd exact = weights_without_sum(planes, rows);
+      if (exact.size() == 0 || exact.minCoeff() <= 0.0) continue;
+      VectorXd sum = VectorXd::Zero(planes.normals.cols());
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        sum += exact[static_cast<Index>(k)] * planes.normals.row(static_cast<Index>(rows[k])).transpose();
+      if (sum.norm() > kSumRoundoff) continue;
+      weights.assign(exact.data(), exact.data() + exact.size());
+      break;
+    }
+    tight_.clear();
+    objective_ = roundoff_ = 0.0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double length = planes.lengths[rows[k]];
+      objective_ += weights[k] * planes.heights[static_cast<Index>(rows[k])];
+      roundoff_ = std::max(roundoff_, tolerance(planes.ids[rows[k]]) / length);
+      if (weights[k] > kWeightRoundoff) tight_.push_back({planes.ids[rows[k]], weights[k] / length});
+    }
+  }
+
+  /// Of these planes: with a sum of 1, so that the normals sum up to as little as can be.
+  static VectorXd weights_without_sum(const LocalPlanes& planes, const std::vector<std::size_t>& rows) {
+    if (rows.empty()) return {};
+    const Index rank = planes.normals.cols();
+    MatrixXd columns = MatrixXd::Ones(rank + 1, static_cast<Index>(rows.size()));
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      columns.col(static_cast<Index>(k)).head(rank) =
+          planes.normals.row(static_cast<Index>(rows[k])).transpose();
+    return solve_least_squares(columns, VectorXd::Unit(rank + 1, rank));
   }
 
   /// The same where it is the planes' normals that are thin: about a lens of thickness 1e-13 all are
@@ -226,32 +260,9 @@ class RegionFinder {
     return direction * step;
   }
 
-  /// The combination of normals, which is 0 in the subspace, with as much of the equations added as makes it
-  /// 0 in all of space, and so many multiples of their own combination that no weight is negative.
-  std::vector<WeightedHalfspace> lifted(const std::vector<WeightedHalfspace>& weights) const {
-    if (equation_weights_.empty()) return weights;
-    const auto dimension = static_cast<Index>(halfspaces_.dimension());
-    MatrixXd equations(dimension, static_cast<Index>(equation_weights_.size()));
-    for (std::size_t k = 0; k < equation_weights_.size(); ++k)
-      equations.col(static_cast<Index>(k)) = unit_normal(equation_weights_[k].halfspace);
-    VectorXd sum = VectorXd::Zero(dimension);
-    for (const WeightedHalfspace& term : weights) sum += term.weight * unit_normal(term.halfspace);
-    const VectorXd share = solve_least_squares(equations, sum);
-    double multiple = 0.0;
-    for (std::size_t k = 0; k < equation_weights_.size(); ++k)
-      multiple = std::max(multiple, share[static_cast<Index>(k)] / equation_weights_[k].weight);
-    std::vector<WeightedHalfspace> all = weights;
-    for (std::size_t k = 0; k < equation_weights_.size(); ++k) {
-      // Twice the multiple, so that the weights of equations stay positive.
-      const double weight = 2.0 * multiple * equation_weights_[k].weight - share[static_cast<Index>(k)];
-      if (weight > 0.0) all.push_back({equation_weights_[k].halfspace, weight});
-    }
-    return all;
-  }
-
   void prove_empty(const std::vector<WeightedHalfspace>& weights) {
     region_.empty = true;
-    region_.proof = lifted(weights);
+    region_.proof = equations_.lifted(weights);
     double total = 0.0;
     for (const WeightedHalfspace& term : region_.proof) total += term.weight;
     for (WeightedHalfspace& term : region_.proof) {
@@ -259,12 +270,17 @@ class RegionFinder {
     }
     std::sort(region_.proof.begin(), region_.proof.end(),
               [](const auto& a, const auto& b) { return a.halfspace < b.halfspace; });
-    // Where the region is 10^12 times as long as thick, normals count as parallel that are not: what was
-    // found about some point then proves nothing.
-    double gap = 0.0;
-    for (const WeightedHalfspace& term : region_.proof)
+    // The sum of normals is 0 to rounding only: it proves that nothing is as near as gap / |sum|. Where the
+    // region is 10^12 times as long as thick, normals count as parallel that are not, and that is not far.
+    double gap = 0.0, reach = point_.norm();
+    VectorXd sum = VectorXd::Zero(point_.size());
+    for (const WeightedHalfspace& term : region_.proof) {
       gap += term.weight * halfspaces_.offset(term.halfspace);
-    if (!(gap > 0.0)) throw too_parallel_planes();
+      sum += term.weight * as_vector(halfspaces_.normal(term.halfspace));
+      reach =
+          std::max(reach, std::abs(halfspaces_.offset(term.halfspace)) / halfspaces_.length(term.halfspace));
+    }
+    if (!(gap > sum.norm() * reach)) throw too_parallel_planes();
   }
 
   /// The planes with positive weights contain the region: on to what they have in common.
@@ -281,9 +297,10 @@ class RegionFinder {
     point_ += region_.directions * solve_least_squares(normals.transpose(), heights);
     const PivotedFactors factors(normals, kParallel);
     region_.directions = region_.directions * factors.q().rightCols(rank - factors.rank());
-    std::vector<WeightedHalfspace> all = lifted(tight);
+    std::vector<WeightedHalfspace> all = equations_.lifted(tight);
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.halfspace < b.halfspace; });
-    equation_weights_ = std::move(all);
+    equations_.set(std::move(all));
+    equations_.hold(point_);
     for (const WeightedHalfspace& term : tight) {
       region_.equalities.push_back(term.halfspace);
       std::erase(region_.planes, term.halfspace);
@@ -291,12 +308,12 @@ class RegionFinder {
   }
 
   const HalfspaceSet& halfspaces_;
+  RegionEquations equations_;
   HalfspaceRegion region_;
   VectorXd point_;
   std::vector<WeightedHalfspace> tight_;  // planes that hold the last ball, weights on unit normals
   double objective_ = 0.0;                // radius of the last ball, negative when planes miss each other
   double roundoff_ = 0.0;                 // of that radius
-  std::vector<WeightedHalfspace> equation_weights_;  // positive, on unit normals; they sum up to no normal
 };
 
 }  // namespace

@@ -10,15 +10,10 @@
 #include <vector>
 
 #include "approx/polytope/halfspace_set.h"
+#include "approx/polytope/region_equations.h"
 #include "core/error.h"
 
 namespace ndhull {
-
-/// A halfspace and its weight in a sum.
-struct WeightedHalfspace {
-  std::uint32_t halfspace;
-  double weight;
-};
 
 /// What halfspaces have in common, seen as a set of some rank with a point strictly inside.
 struct HalfspaceRegion {
@@ -41,12 +36,10 @@ struct HalfspaceRegion {
 ///
 /// Rounding  a radius within some units in the last place of the planes that decide it counts as 0.
 /// Throws    Error kBadHalfspace when `interior_point` is not strictly inside: names the halfspace it is
-/// furthest
-///           outside of, and the distance; when the region is so long and thin that rounding hides its end
-///           and every point of it.
+///           furthest outside of, and the distance; when the region is so long and thin that rounding hides
+///           its end and every point of it.
 /// Cost      3 linear programs with rank + 1 rows a stage, of which the later ones start at the optimum of
-/// the
-///           first; one stage when there is an interior.
+///           the first; one stage when there is an interior.
 /// Source    Boyd, Vandenberghe. Convex Optimization, sec. 8.5.1 (Chebyshev centre).
 HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
                             const std::optional<std::vector<double>>& interior_point);

@@ -3,7 +3,7 @@
 //   2 hull      kAuto: tried within limits; kHull: built
 //   3 search    approx/rays/facet_search      rounds of rays and climbs until the largest facets are stable
 //   4 bound     approx/geometry/boundedness       rays along open directions until the planes bound a region
-//   5 certify   approx/facets/plane_certificate every point below every plane
+//   5 certify   approx/rays/plane_certificate every point below every plane
 //   6 sample    approx/rays/sample_bounds     what the rays prove
 #include "approx/rays/largest_facets.h"
 
@@ -14,12 +14,12 @@
 #include <numeric>
 #include <string>
 
-#include "approx/facets/plane_certificate.h"
 #include "approx/geometry/boundedness.h"
 #include "approx/geometry/frame_planes.h"
 #include "approx/hull.h"
 #include "approx/rays/facet_search.h"
 #include "approx/rays/largest_search.h"
+#include "approx/rays/plane_certificate.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
 

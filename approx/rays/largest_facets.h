@@ -111,8 +111,8 @@ struct LargestFacets {
 /// Finds the largest facets.
 ///
 /// Method    See approx/rays/DESIGN.md. Every facet is proven to be one: no input point is above its outer
-/// plane.
-///           What is not proven of rays is that no larger facet was missed; `sample` tells what is known.
+///           plane. What is not proven of rays is that no larger facet was missed; `sample` tells what is
+///           known.
 /// Returns   fewer facets than wanted when the hull has fewer, or no more were found. Rank 0: none.
 /// Throws    Error as convex_hull; kDimensionTooHigh rank above kMaxRayRank, or above kMaxRank with kHull.
 /// Cost      kRays: 12 rank bytes a point, 8 dimension more at the end; time see RayShooter. About 150 bytes

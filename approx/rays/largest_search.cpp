@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "approx/facets/plane_certificate.h"
 #include "approx/geometry/boundedness.h"
 #include "approx/geometry/frame_planes.h"
 #include "approx/hull.h"
+#include "approx/rays/plane_certificate.h"
 #include "core/error.h"
 
 namespace ndhull {

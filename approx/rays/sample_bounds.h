@@ -29,9 +29,8 @@ double unseen_share_bound(std::uint64_t rays, double confidence);
 /// without any.
 ///
 /// Bias   Where all kinds are met equally often on average (Poisson) it is right to 0.02, whatever that
-/// average is.
-///        Where rates differ it is too high, and where kinds are met in groups it varies more than they do
-///        alone.
+///        average is. Where rates differ it is too high, and where kinds are met in groups it varies more
+///        than they do alone.
 /// Source Good. The population frequencies of species. Biometrika 40, 1953.
 double coverage_estimate(std::uint64_t once, std::uint64_t twice, std::uint64_t more);
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "approx/geometry/row_bits.h"
+#include "approx/reduction/row_bits.h"
 #include "approx/reduction/sample_shape.h"
 #include "core/points.h"
 #include "core/simplicial_complex.h"

@@ -10,7 +10,7 @@
 #include <queue>
 #include <string>
 
-#include "approx/reduction/hull_distance.h"
+#include "approx/geometry/hull_distance.h"
 #include "core/blocks.h"
 
 namespace ndhull {

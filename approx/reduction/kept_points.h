@@ -39,14 +39,13 @@ struct KeepOptions {
 /// one furthest from the hull of those chosen, until there are enough or none is outside.
 ///
 /// vertices  of all the points (extreme_points): the distance from a hull is a convex function, so no point
-/// is
-///           further from it than the furthest vertex, but for the rounding that decided what is a vertex,
+///           is further from it than the furthest vertex, but for the rounding that decided what is a vertex,
 ///           which is added.
 /// Returns   fewer than wanted when fewer make the whole hull, or a stop was requested; none of no vertices.
 /// Not promised  that no other vertices would be nearer: greedy choices are good, not best.
 /// Source    lazy evaluation of distances that can only fall, as in Minoux. Accelerated greedy algorithms.
-/// 1978. Cost      count x vertices x dimension for marking, and some hull_distance calls a choice, in
-/// parallel.
+///           1978.
+/// Cost      count x vertices x dimension for marking, and some hull_distance calls a choice, in parallel.
 KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
                        std::span<const double> centre, const KeepOptions& options);
 

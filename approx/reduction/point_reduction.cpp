@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "approx/geometry/row_bits.h"
 #include "approx/reduction/direction_extremes.h"
 #include "approx/reduction/furthest_outside.h"
 #include "approx/reduction/inner_ellipsoid.h"
+#include "approx/reduction/row_bits.h"
 #include "approx/reduction/sample_hull.h"
 #include "approx/reduction/shard_overview.h"
 #include "core/blocks.h"

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "approx/geometry/boundedness.h"
-#include "approx/geometry/plane_candidates.h"
 #include "approx/polytope/outer_volume.h"
 #include "approx/selection/outer_distance.h"
+#include "approx/selection/plane_candidates.h"
 #include "core/dense_views.h"
 #include "core/error.h"
 

@@ -42,8 +42,7 @@ struct FacetSelection {
 ///
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/geometry/boundedness.h), each of which is needed.
-/// Facets of a
-///           hull always can bound a region. A hull without facets is a point, and bounded.
+///           Facets of a hull always can bound a region. A hull without facets is a point, and bounded.
 /// End       of choosing for volume or distance, which can take minutes: facets still missing then are the
 ///           largest. All else takes little.
 /// Throws    Error kUsage as choose_for_volume and choose_for_distance do.

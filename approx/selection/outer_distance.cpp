@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "approx/geometry/boundedness.h"
+#include "approx/geometry/hull_distance.h"
 #include "approx/geometry/subspace.h"
 #include "approx/polytope/outer_volume.h"
-#include "approx/reduction/hull_distance.h"
 #include "core/dense_views.h"
 #include "core/stopwatch.h"
 

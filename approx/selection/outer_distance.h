@@ -27,7 +27,7 @@ struct OuterDistance {
 ///
 /// points   those that the hull was made from.
 /// Method   A vertex v of gauge g is between its largest height above a facet and |v| (1 - 1/g) away; in the
-///          order of the second the nearest points of the hull are computed (hull_distance.h), until no other
+///          order of the second the nearest points of the hull are computed (approx/geometry/hull_distance.h), until no other
 ///          vertex can be further. After 2,000 of them, with max_simplices perhaps fewer, the bound of the
 ///          rest is taken. Rounding of the vertices themselves is not part of the bounds.
 /// Returns  no distance where outer_volume has no volume or would not in max_seconds (0: no limit), and with
@@ -50,8 +50,7 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
 ///          are not looked at: the largest facets make up the number then, and when `end` has come.
 /// Throws   Error kUsage when count <= rank: so few planes bound nothing.
 /// Cost     a hull of the chosen dual points for each round, and for each exchange two; candidates (the
-/// 20,000
-///          of largest area) x vertices x rank multiplications.
+///          20,000 of largest area) x vertices x rank multiplications.
 std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count, const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "approx/geometry/boundedness.h"
-#include "approx/geometry/plane_candidates.h"
 #include "approx/polytope/outer_volume.h"
-#include "approx/trade/volume_rays.h"
+#include "approx/selection/plane_candidates.h"
+#include "approx/selection/volume_rays.h"
 #include "core/error.h"
 #include "core/portable_random.h"
 

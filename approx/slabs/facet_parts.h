@@ -14,8 +14,9 @@ namespace ndhull {
 
 /// Of each facet's connected parts the largest stays, the others go to a neighbouring facet that can hold
 /// them within `width`, the one below whose plane they lie highest. Those that none can hold stay where they
-/// are. Shapes  depth_of: per row of the complex, how deep below its facet's plane it reaches, rounded up; of
-/// what
+/// are.
+///
+/// Shapes  depth_of: per row of the complex, how deep below its facet's plane it reaches, rounded up; of what
 ///         moves it is set. is_asked: per facet, not 0: it may have several parts; empty: all may. Planes
 ///         that were not measured and are needed are measured: their low is infinite.
 /// Cost    each ridge of these facets twice, by all threads, and the parts that move again.

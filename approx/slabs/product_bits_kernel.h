@@ -37,8 +37,7 @@ struct ProductBits {
 ///
 /// Shapes  planes: count x rank; ids: count x rank rows of `points`; least, bits: count.
 /// Error   what is not known is decided by the bound (rank + 8) 2^-24 (|plane| reach + |least|) on the
-/// rounding of
-///         operands and sums (Higham, 2nd ed., eq. 3.5).
+///         rounding of operands and sums (Higham, 2nd ed., eq. 3.5).
 /// Cost    rank^2 multiply-adds a plane.
 void compare_products(const FloatPoints& points, const double* planes, const std::uint32_t* ids,
                       std::span<const double> least, std::span<ProductBits> bits);

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "approx/geometry/boundedness.h"
-#include "approx/reduction/hull_distance.h"
+#include "approx/geometry/hull_distance.h"
 #include "approx/reduction/kept_points.h"
 #include "approx/slabs/width_space.h"
 #include "core/blocks.h"

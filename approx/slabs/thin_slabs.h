@@ -24,10 +24,9 @@ using FindDeterminants = std::function<std::span<const double>(const BlockWork& 
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (all_fit tells).
-/// Cost      rank products and rank random reads of 2 bytes (4 where
-///           points are many) a simplex, by all threads; then some random reads
-///           for each. Where the hull is not convex, a product of a direction with all points left out for
-///           each slab tried.
+/// Cost      rank products and rank random reads of 2 bytes (4 where points are many) a simplex, by all
+///           threads; then some random reads for each. Where the hull is not convex, a product of a direction
+///           with all points left out for each slab tried.
 DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
                                      std::span<const double> gradient_factor, PointsAbove above, double width,
                                      const FindDeterminants& find_determinants, DualFacets facets);

@@ -159,11 +159,11 @@ class Merging {
       seen[entry] = id;
       list.push_back(entry);
     };
-    constexpr std::size_t kRowsAhead = 8, kNeighboursAhead = 3;  // whose way from memory has begun
+    constexpr std::size_t kAskedBefore = 8, kNeighboursAhead = 3;  // whose way from memory has begun
     Cluster& cluster = clusters_[id];
     work.facet_seen[id] = id;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const SimplexId later{rows[std::min(i + kRowsAhead, rows.size() - 1)]};
+      const SimplexId later{rows[std::min(i + kAskedBefore, rows.size() - 1)]};
       prefetch(complex_.vertices(later).data());
       prefetch(&complex_.neighbours(later).back());
       const SimplexId soon{rows[std::min(i + kNeighboursAhead, rows.size() - 1)]};

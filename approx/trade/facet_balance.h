@@ -40,7 +40,7 @@ class FacetBalance {
   /// Lets simplices change facets, and fits the planes of facets that are not what they were; facets left
   /// without a simplex are dropped. False: nothing has changed. The same for any number of threads.
   /// Cost  a product of vertices and neighbouring planes for each simplex at a border that may have moved, a
-  ///       fit (plane_fit.h) for each facet that has changed.
+  ///       fit (approx/slabs/plane_fit.h) for each facet that has changed.
   bool turn();
 
   /// Of the widest facets, as many as are to come more, the deepest simplex becomes a facet of its own, which

@@ -29,16 +29,14 @@ struct HullFacets {
 /// than kSurelyBounded facets none is looked for.
 ///
 /// `known`   Instead of simplices that points are too far above, which growth left out: the facets of the
-/// hull
-///           of all points along the open directions. One that is no simplex of the complex yet closes
+///           hull of all points along the open directions. One that is no simplex of the complex yet closes
 ///           nothing: its points are `missing`, and the covering is to be made again when growth has taken
 ///           them in. Those found stay known, so that they are looked for once.
 /// Shapes    coordinates: points x rank, in the frame.
 /// Not promised  that a direction is closed where points share planes: the facet found there may be divided
 ///           into other simplices, and the one that faces it most is taken, however far points are above it.
-/// Cost      a search for an open direction (boundedness.h) for each, and a product for each simplex; for
-/// each
-///           facet looked for a linear program with a column for each point, and a look at each simplex.
+/// Cost      a search for an open direction (approx/geometry/boundedness.h) for each, and a product for each simplex; for
+///           each facet looked for a linear program with a column for each point, and a look at each simplex.
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
                                   const double* coordinates, HullFacets* known, Covering& covering);
 

@@ -28,7 +28,7 @@ enum class GrowthStop { kNoOutsidePoints, kPaused, kFacetLimit, kTimeLimit, kMem
 struct GrowthOptions {
   /// [ratio] A point whose decisions are not all clearer than this is moved inwards by between one and two
   /// of it. 1e-12 is some 4,000 times the rounding error of one decision and still far below data noise;
-  /// core/DESIGN.md has the experiment.
+  /// core/DESIGN.md (Robustness) says why.
   double shift = 1e-12;
   /// [length unit] Points less than this above the simplex they lie over are left out. 0: none are. May be
   /// raised between calls of `grow`; what was left out before stays out.

@@ -22,8 +22,8 @@
 namespace ndhull {
 
 /// A direction, rounded. With w its entries in half extents times `factor`, t those of a point from the
-/// middle, and m the rounded w, m = scale w + rest, and `rest` is orthogonal to w. So of a point with w.t >=
-/// b
+/// middle, and m the rounded w, m = scale w + rest, and `rest` is orthogonal to w. So of a point with
+/// w.t >= b
 ///   m.t >= scale b - |rest| sqrt(reach^2 - (b / |w|)^2):
 /// points as far along the direction as the best one have little of their length across it.
 struct ByteDirection {

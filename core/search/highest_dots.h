@@ -68,10 +68,10 @@ struct OwnDots {
 ///
 /// Shapes  normals: facets x dimension; largest: one a facet. The own vertices are among the points.
 /// Error   each dot product is a chain of fused multiply-adds from the first coordinate on: at most
-/// gamma_dimension
-///         sum |n_k x_k| (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed., eq. 3.5).
+///         gamma_dimension sum |n_k x_k| (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed.,
+///         eq. 3.5).
 /// Cost    at most facets x points x dimension fused multiply-adds; for the facets of many points in 5-d a
-/// tenth.
+///         tenth.
 void highest_dots(const PointGroups& points, std::span<const double> normals, const OwnDots& own,
                   std::span<double> largest);
 

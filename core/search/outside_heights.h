@@ -10,10 +10,9 @@ namespace ndhull {
 /// Heights of the points in outside sets, and the furthest of them.
 ///
 /// Idea    A height is written far more often than the furthest is asked for, and hardly ever is the one
-/// written
-///         the largest of its block: only then the block is looked at again, and not before the question. A
-///         heap of outside sets has as many stale entries as points move; taking them off was a twentieth of
-///         the time in 5-d.
+///         written the largest of its block: only then the block is looked at again, and not before the
+///         question. A heap of outside sets has as many stale entries as points move; taking them off was a
+///         twentieth of the time in 5-d.
 /// Memory  12 bytes a point, and 9 for 64 of them.
 class OutsideHeights {
  public:
@@ -54,8 +53,7 @@ class OutsideHeights {
   std::uint32_t row(std::uint32_t point) const { return rows_[point]; }
   double height(std::uint32_t point) const { return levels_[0].values[point]; }
   /// Cost  amortised some dozen comparisons for each point written; where many points are equally far, one
-  /// for
-  ///       each of them.
+  ///       for each of them.
   Furthest furthest();
 
  private:

@@ -49,8 +49,7 @@ class DoubleDescription {
   enum class Outcome { kGoing, kDone, kGivenUp };
 
   /// Shapes  points: count x rank, in the frame, the interior point at 0; must outlive this. simplex: rank +
-  /// 1
-  ///         affinely independent points around 0. most_words: of all facets' bits, 256 MB at most.
+  ///         1 affinely independent points around 0. most_words: of all facets' bits, 256 MB at most.
   /// Cost    O(count rank^2).
   DoubleDescription(const double* points, std::size_t count, std::size_t rank,
                     std::span<const PointId> simplex, std::uint64_t most_words);

@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "core/search/column_table.h"
+#include "core/column_table.h"
 #include "tests/support/named_polytopes.h"
 
 namespace ndhull {

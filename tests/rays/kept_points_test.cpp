@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "approx/geometry/hull_distance.h"
 #include "approx/rays/extreme_points.h"
-#include "approx/reduction/hull_distance.h"
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
 

@@ -80,7 +80,7 @@ void end_after_signal(int signal) {
 }
 
 /// Signals that someone has chosen to ignore, as nohup does, or to handle stay so. Ctrl-C where nobody waits
-/// for it (interrupt.h) is one of them.
+/// for it (tools/command_line/interrupt.h) is one of them.
 void watch_ends() {
   static const bool is_watched = [] {
     for (const int signal : {SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGXCPU}) {

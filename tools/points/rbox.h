@@ -26,7 +26,7 @@ namespace ndhull {
 ///           * numbers it would overflow, hexadecimal ones, more than 2^31-1 points, 'c' above 26-d,
 ///             coordinates that do not fit an int with 'z', sets that hold NaN (`1 l`).
 /// Not promised  the last digit of r, l and L with another C library than glibc: they use its sine, cosine
-///           and arc sine.
+///               and arc sine.
 /// Cost      O(points x dimension); text and numbers of the whole set are held in memory.
 std::string rbox_text(std::string_view arguments);
 

@@ -17,8 +17,7 @@ int run_qhull(const QhullCommand& command, unsigned threads);
 ///
 /// Returns  0; 2 when a vertex is above a halfspace by more than its rounding and Tv was given.
 /// Throws   Error as read_halfspaces and intersect_halfspaces do; kBadHalfspace when the intersection is
-/// empty,
-///          not bounded or lower-dimensional without vertices.
+///          empty, not bounded or lower-dimensional without vertices.
 int run_qhalf(const QhullCommand& command, unsigned threads);
 
 /// "rbox 10 D3 | qhull FQ": the comment behind the dimension in the input's first line, and the command.

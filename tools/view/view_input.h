@@ -36,8 +36,8 @@ bool is_report(const FileBytes& bytes, const std::string& path);
 /// Reads a report of `ndhull hull --report FILE --facet-list` and the points it names.
 ///
 /// Points    options.columns of input.path as it stands, or beside the report when it is relative and not
-/// there. Throws    Error kBadHeader for text that is no such report; kUsage when it has no facet list or its
-/// points
+///           there.
+/// Throws    Error kBadHeader for text that is no such report; kUsage when it has no facet list or its points
 ///           came from standard input; kWrongCount when the points are others than the report's; kFileMissing
 ///           and what read_points throws for the points.
 ViewedHull read_report(const FileBytes& bytes, const std::string& path);

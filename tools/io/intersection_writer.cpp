@@ -1,4 +1,4 @@
-#include "tools/intersection_writer.h"
+#include "tools/io/intersection_writer.h"
 
 #include <fmt/format.h>
 
@@ -113,14 +113,14 @@ IdRows vertices_of_halfspaces(const HalfspaceIntersection& intersection) {
   return rows;
 }
 
-using Writer = void (*)(OutputFile&, const HalfspaceIntersection&);
+using RegionWriter = void (*)(OutputFile&, const HalfspaceIntersection&);
 
-struct Format {
+struct RegionFormat {
   std::string_view name;
-  Writer write;
+  RegionWriter write;
 };
 
-constexpr Format kFormats[] = {
+constexpr RegionFormat kRegionFormats[] = {
     {"Fp", write_vertices},
     {"Fv", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, true); }},
     {"i", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, false); }},
@@ -130,8 +130,8 @@ constexpr Format kFormats[] = {
      [](OutputFile& file, const auto& region) { write_rows(file, vertices_of_halfspaces(region), true); }},
 };
 
-const Format& find_format(const std::string& name) {
-  for (const Format& format : kFormats) {
+const RegionFormat& find_format(const std::string& name) {
+  for (const RegionFormat& format : kRegionFormats) {
     if (format.name == name) return format;
   }
   throw Error(ErrorCode::kUsage,

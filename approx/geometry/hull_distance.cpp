@@ -1,4 +1,4 @@
-#include "approx/reduction/hull_distance.h"
+#include "approx/geometry/hull_distance.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -30,11 +30,9 @@ struct DistanceSearch {
 ///         point but for rounding; bounds hold wherever it ends. lower is the distance of the supporting
 ///         plane across the gap.
 /// Roundoff  included in both bounds; sizes are those of the columns and the point as given, so give them
-/// about
-///         a point in their midst.
+///         about a point in their midst.
 /// Cost    a few times (dimension + 1) rounds of count x dimension multiply-adds and a factorisation of at
-/// most
-///         dimension + 1 rows.
+///         most dimension + 1 rows.
 HullDistance hull_distance(const Eigen::Ref<const Eigen::MatrixXd>& hull,
                            const Eigen::Ref<const Eigen::VectorXd>& point, HullDistance start = {},
                            const DistanceSearch& search = {});

@@ -1,4 +1,4 @@
-#include "approx/trade/volume_rays.h"
+#include "approx/selection/volume_rays.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

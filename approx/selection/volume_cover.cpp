@@ -1,4 +1,4 @@
-#include "approx/trade/volume_cover.h"
+#include "approx/selection/volume_cover.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "approx/geometry/boundedness.h"
-#include "approx/geometry/plane_candidates.h"
-#include "approx/trade/volume_rays.h"
+#include "approx/selection/plane_candidates.h"
+#include "approx/selection/volume_rays.h"
 #include "core/blocks.h"
 #include "core/ids.h"
 

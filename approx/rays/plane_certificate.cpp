@@ -1,4 +1,4 @@
-#include "approx/facets/plane_certificate.h"
+#include "approx/rays/plane_certificate.h"
 
 #include <algorithm>
 #include <cmath>
