@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -88,6 +89,10 @@ class CertifiedGrowth {
   const HullOptions& options() const { return options_; }
   /// Should what is there be the result, if it can be one? Then the status says so.
   bool is_late();
+  /// [seconds] Until the time limit; infinite without one.
+  double seconds_left() const {
+    return options_.limits.max_seconds > 0.0 ? limits_.seconds_left() : HUGE_VAL;
+  }
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
   /// Are the points about as rough as the shift? Most insertions were undone, and growth has ended, or points
   /// are left outside by far more than it: a larger shift will do. Never of one that is not the default or

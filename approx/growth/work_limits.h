@@ -41,12 +41,12 @@ class WorkLimits {
   std::uint64_t bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
+  double seconds_left() const;  ///< of max_seconds, which is above 0
   /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a
   /// request to stop: that take a second, or some share of the time so far.
   double affordable_products(const GrowthWork& work, bool is_stopped) const;
 
  private:
-  double seconds_left() const;
   static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);
   std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);

@@ -105,6 +105,7 @@ class Approximation {
     double slab = 0.0;    // in the hull that is wanted, about
   };
   SlabGuess guess_slab(std::uint64_t count, CountSearch& search);
+  void foresee_coverings(double seconds_at_first, const CountSearch& search);
   double consider(const Covering& covering, double slab, CountSearch& search);
   void close_and_join(Covering& covering, double width, bool joins) const;
   void probe_widths(std::uint64_t count, CountSearch& search);
@@ -159,8 +160,9 @@ class Approximation {
   std::optional<WidthSpace> space_;
   /// Have the fits seen all points, so that planes that were measured are as wide as they say?
   bool has_seen_all_ = true;
-  bool has_left_out_ = false;               // which the space is meant to know
-  std::optional<PointTree> left_out_tree_;  // of left_out(), as rows of the space's kind, once asked for
+  bool has_left_out_ = false;                   // which the space is meant to know
+  std::optional<PointTree> left_out_tree_;      // of left_out(), as rows of the space's kind, once asked for
+  std::uint64_t affordable_rows_ = UINT64_MAX;  // simplices that a number of facets may be looked for among
 };
 
 }  // namespace ndhull

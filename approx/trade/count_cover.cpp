@@ -233,7 +233,8 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
 
 /// Growth for so many facets. True when it has added a vertex.
 bool Approximation::grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess) {
-  const std::uint64_t most = std::max(kWorthGrowing, kSimplicesPerFacet * count);
+  const std::uint64_t most = std::min(std::max(kWorthGrowing, kSimplicesPerFacet * count), affordable_rows_);
+  const std::uint64_t most_far = std::min(kMostWorthGrowing, affordable_rows_);
   const std::uint64_t insertions = growth_.work().counters.insertions;
   const auto has_paused = [&](std::uint64_t enough, double height) {
     return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
@@ -241,15 +242,14 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, co
   const auto are_far = [&](double slab) { return growth_.furthest_height() > kNearSlab * slab; };
   bool is_paused = !growth_.is_limited() && has_paused(lengths_.outside_width > 0.0 ? 0 : most, HUGE_VAL);
   if (is_paused && are_far(guess.slab) && !growth_.is_late())
-    is_paused = has_paused(most + most / kFewMore, HUGE_VAL);
+    is_paused = has_paused(std::min(most + most / kFewMore, affordable_rows_), HUGE_VAL);
   const double slab = is_thorough() ? guess.slab : guess.coarse;
-  for (std::uint64_t enough = most;
-       is_paused && enough < kMostWorthGrowing && are_far(slab) && !growth_.is_late();) {
+  for (std::uint64_t enough = most; is_paused && enough < most_far && are_far(slab) && !growth_.is_late();) {
     enough += kWorthGrowing / 4;
     is_paused = has_paused(enough, HUGE_VAL);
   }
   // What is further outside makes facets wider, whatever the slabs.
-  if (is_paused) has_paused(most, guess.coarse);
+  if (is_paused && live_count() < affordable_rows_) has_paused(most, guess.coarse);
   locate_left_out(outside_width);
   return growth_.work().counters.insertions > insertions;
 }
@@ -259,7 +259,7 @@ bool Approximation::is_coarse_for(double slab, double outside_width) {
   const double height = growth_.furthest_height();
   if (height == 0.0)  // it had ended
     return outside_width > flat() && kShareForGrowth * slab < kCoarse * outside_width;
-  return height > kTooNearSlab * slab && live_count() < kMostWorthGrowing;
+  return height > kTooNearSlab * slab && live_count() < std::min(kMostWorthGrowing, affordable_rows_);
 }
 
 /// From a coarse hull. Its slabs hold the points left out as well: those of the hull that is wanted are
@@ -274,6 +274,17 @@ Approximation::SlabGuess Approximation::guess_slab(std::uint64_t count, CountSea
   return {coarse, std::max(coarse - growth_.furthest_height(), kLeastOfGuess * coarse)};
 }
 
+/// With a time limit: growth ends where the coverings that follow would take longer than what is left, by
+/// what those of the coarse hull took.
+void Approximation::foresee_coverings(double seconds_at_first, const CountSearch& search) {
+  constexpr double kCoverings = 12.0;  // and what looks at their facets
+  const double left = growth_.seconds_left();
+  if (left == HUGE_VAL || search.covered == 0) return;
+  const double seconds_per_simplex = (seconds_at_first - left) / static_cast<double>(search.covered);
+  const double rows = std::max(0.0, left) / (kCoverings * seconds_per_simplex);
+  affordable_rows_ = std::max<std::uint64_t>(live_count(), static_cast<std::uint64_t>(std::min(rows, 1e18)));
+}
+
 // A simplex with a point left out too far above it is too wide alone, whatever the slabs are: such points are
 // taken in, in rounds, as for a target width. Each round starts from the slabs of the one before it.
 FacetClusters Approximation::run_count() {
@@ -281,7 +292,9 @@ FacetClusters Approximation::run_count() {
   const bool is_given = lengths_.outside_width > 0.0;
   CoverEffort effort = kPlain;
   CountSearch search;
+  const double seconds_at_first = growth_.seconds_left();
   SlabGuess guess = is_given ? SlabGuess{} : guess_slab(count, search);
+  foresee_coverings(seconds_at_first, search);
   double outside_width =
       is_given ? lengths_.outside_width : kShareForGrowth * (is_thorough() ? guess.slab : guess.coarse);
   if (guess.coarse == 0.0)
