@@ -38,7 +38,7 @@ void check_depths(const Accuracy& accuracy, const ResolvedAccuracy& lengths) {
   constexpr double kLongest = 1e36;
   const bool gathers = accuracy.facets > 0 || lengths.width > 0.0 || accuracy.merges_neighbours();
   if (!gathers || lengths.largest_extent < kLongest) return;
-  throw Error(ErrorCode::kNotFinite,
+  throw Error(ErrorCode::kOutOfRange,
               "points: found an extent of 1e36 or more, expected less where facets are merged; divide the "
               "coordinates by a power of two, or measure widths in the unit cube");
 }

@@ -59,7 +59,7 @@ struct ResolvedAccuracy {
 };
 ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
 
-/// Throws Error kNotFinite where simplices are gathered into facets and depths, which are kept in single
+/// Throws Error kOutOfRange where simplices are gathered into facets and depths, which are kept in single
 /// precision, would not be finite.
 void check_depths(const Accuracy& accuracy, const ResolvedAccuracy& lengths);
 

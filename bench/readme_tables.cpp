@@ -37,22 +37,22 @@ std::string seconds_text(const Repeats& repeats) { return short_number(repeats.m
 Table approximate_table(const std::vector<RunRecord>& records) {
   Table table{.title = {},
               .note = {},
-              .columns = {"input, options of both", "Qhull: facets, width, s", "ndhull, same options",
-                          "`--facets` as Qhull"},
+              .columns = {"input, options of both", "Qhull: facets, width (widest facet), s",
+                          "ndhull, same options", "`--facets` as Qhull"},
               .rows = {},
               .left_columns = 4};
   for (const ApproximateGroup& group : approximate_groups(records)) {
     if (group.qhull.is_empty() || group.equal_options.is_empty() || group.equal_facets.is_empty()) continue;
     const RunRecord& qhull = group.qhull.done.back();
     const HullRun &ours = group.equal_options.last(), &same_facets = group.equal_facets.last();
-    table.rows.push_back(
-        {input_cell(qhull.key.input, group.points) + ", " + qhull.key.options,
-         fmt::format("{}, {}, {}", grouped_number(qhull.run.facets),
-                     short_number(width_of_all_facets(qhull.run)), seconds_text(group.qhull)),
-         fmt::format("{}, {}, {}", grouped_number(ours.facets), short_number(ours.max_facet_width),
-                     seconds_text(group.equal_options)),
-         fmt::format("{}, {} s", short_number(same_facets.max_facet_width),
-                     seconds_text(group.equal_facets))});
+    table.rows.push_back({input_cell(qhull.key.input, group.points) + ", " + qhull.key.options,
+                          fmt::format("{}, {} ({}), {}", grouped_number(qhull.run.facets),
+                                      short_number(width_of_all_facets(qhull.run)),
+                                      short_number(qhull.run.max_facet_width), seconds_text(group.qhull)),
+                          fmt::format("{}, {}, {}", grouped_number(ours.facets),
+                                      short_number(ours.max_facet_width), seconds_text(group.equal_options)),
+                          fmt::format("{}, {} s", short_number(same_facets.max_facet_width),
+                                      seconds_text(group.equal_facets))});
   }
   return table;
 }

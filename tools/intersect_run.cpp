@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -87,8 +88,15 @@ int run_intersect(const IntersectRequest& request) {
                             "halfspaces, or ask for --report only",
                             file.path, describe_without_vertices(intersection)));
   }
-  if (!wants_vertices && request.report_path.empty() && !request.quiet)
+  const bool uses_standard_output = std::any_of(outputs.begin(), outputs.end(),
+                                                [](const NamedOutput& output) { return output.path == "-"; });
+  if (!request.quiet && !uses_standard_output) {
     write_text("-", intersection_summary(intersection, request.halfspaces_path));
+  } else if (!request.quiet && has_vertices && intersection.status != HullStatus::kComplete) {
+    fmt::print(stderr,
+               "ndhull: warning: {}: vertices are missing, the intersection is inside those written\n",
+               to_string(intersection.status));
+  }
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -21,8 +21,8 @@ struct IntersectRequest {
   bool quiet = false;
 };
 
-/// Reads the halfspaces, intersects them and writes what was asked for, the report last; without any output
-/// prints a summary.
+/// Reads the halfspaces, intersects them and writes what was asked for, the report last; where standard
+/// output is free prints a summary.
 ///
 /// Returns  0; 130 when Ctrl-C came: what there is was written.
 /// Throws   Error as read_halfspaces, intersect_halfspaces and the writers do; kUsage when two outputs want

@@ -367,6 +367,7 @@ ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& opti
                   "points span " + std::to_string(frame.rank) + " dimensions, expected at most " +
                       std::to_string(kMaxExtremeRank) + "; project them to fewer");
     }
+    check_extents(frame);
     if (frame.rank == 0) {
       result.vertices.push_back(PointId{0});
       result.copies.push_back(static_cast<std::uint32_t>(points.rows));

@@ -56,7 +56,7 @@ struct ExtremePoints {
 ///           growth. Of points within 2.5e-13 of each other the first stands for all; what is within 2e-12 of
 ///           a vertex and not decided otherwise goes with it. A vertex that no plane of doubles parts, far
 ///           from the origin or of hulls as thin as rounding, is open.
-/// Throws    Error as fit_frame; kDimensionTooHigh rank above kMaxExtremeRank.
+/// Throws    Error as fit_frame and check_extents; kDimensionTooHigh rank above kMaxExtremeRank.
 /// Cost      points x vertices x dimension multiply-adds at the worst, times the pivots of a program (10 in
 ///           10-d); 12 rank bytes a point, 8 dimension a vertex. Where coordinates are more than 1e8 times
 ///           the hull's size, or it is as thin, some 10 dimension operations more for each point and vertex.

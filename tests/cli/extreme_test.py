@@ -79,6 +79,8 @@ def test_bad_usage():
     for words in (["--keep", "0"], ["--keep", "many"], ["--distances", "x.npy"], ["--max-seconds", "0"]):
         one_error_line(run("extreme", path, *words, exit_code=1), "usage")
     one_error_line(run("extreme", folder / "none.npy", exit_code=1), "file-missing")
+    numpy.save(path, numpy.eye(4) * 1e-310)  # so small that no decision is clear
+    one_error_line(run("extreme", path, exit_code=1), "out-of-range")
 
 
 if __name__ == "__main__":

@@ -85,7 +85,7 @@ def test_more_effort_gives_fewer_or_narrower_facets():
 def test_accuracy_options_that_contradict():
     for words in (["--width", "1", "--facets", "9"], ["--width", "1", "--centrum-radius", "1"],
                   ["--width-cap", "1"], ["--max-cosine", "nan"], ["--effort", "thorough"], ["--effort", "more", "--width", "1"],
-                  ["--effort", "thorough", "--facets", "9", "--objective", "volume"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
+                  ["--effort", "thorough", "--facets", "9", "--objective", "volume"], ["--triangulate", "--width", "5%"], ["--triangulate", "--facets", "50"], ["--width", "0"], ["--width", "5%%"], ["--outside-width", "-1"]):  # fmt: skip
         done = run("hull", DIAMONDS, *words, exit_code=1)
         assert done.stdout == "" and done.stderr.count("\n") == 1, (words, done.stderr)
 
@@ -240,7 +240,7 @@ def test_extents_beyond_single_precision_are_refused_where_facets_are_merged():
     path = fresh_folder("long") / "points.npy"
     numpy.save(path, numpy.random.default_rng(1).normal(size=(60, 4)) * 1e40)
     for words in (["--facets", "8"], ["--width", "5%"], ["--max-cosine", "0.9"]):
-        one_error_line(run("hull", path, *words, exit_code=1), "not-finite")
+        one_error_line(run("hull", path, *words, exit_code=1), "out-of-range")
         assert report_of(path, *words, "--unit-cube", "--verify")["points_outside"] == 0
     assert report_of(path, "--outside-width", "5%", "--verify")["points_outside"] == 0
 

@@ -107,6 +107,20 @@ def test_statuses():
     assert half["status"] == "unbounded" and half["inner_radius"] is None
 
 
+def test_what_a_limit_leaves_out_is_said():
+    folder = fresh_folder("limit")
+    numpy.save(folder / "rows.npy", cube(7))
+    words = ["intersect", folder / "rows.npy", "--max-facets", 20]
+    done = run(*words, "--vertices", folder / "v.npy")
+    assert "limit       facet_limit" in done.stdout and len(numpy.load(folder / "v.npy")) < 128, done.stdout
+    done = run(*words, "--vertices", "-")
+    assert done.stderr.startswith("ndhull: warning: facet_limit: vertices are missing"), done.stderr
+    report = json.loads(run(*words, "--report", "-", "--quiet").stdout)
+    assert report["hull_status"] == "facet_limit" and report["options"]["max_seconds"] is None
+    done = run("intersect", folder / "rows.npy", "--vertices", folder / "v.npy")
+    assert "status      bounded" in done.stdout and done.stderr == "" and len(numpy.load(folder / "v.npy")) == 128
+
+
 def test_formats_agree_with_each_other_and_qhalf():
     points = rbox("30 s D4 t1", FOLDER / "points.npy")
     run("hull", FOLDER / "points.npy", "--planes", FOLDER / "planes.txt")

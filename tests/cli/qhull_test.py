@@ -323,6 +323,8 @@ def test_qhalf_says_why_there_are_no_vertices():
     rows = b"3\n2\n-1 0 0\n0 -1 0\n"
     one_error_line(run("qhalf", "Fp", stdin=rows, exit_code=1), "bad-halfspace")
     one_error_line(run("qhalf", "H5,0 Fp", stdin=ours("n", points_of("c D2")).encode(), exit_code=1), "bad-halfspace")
+    with_point = "2 1\n0.25 0\n" + ours("n", points_of("c D2"))
+    assert run("qhalf", "H5,0 Fx", stdin=with_point.encode()).stdout == run("qhalf", "Fx", stdin=with_point.encode()).stdout
     one_error_line(run("qhalf", "Fd Fp", stdin=rows, exit_code=1), "bad-header")
     for options in ("FS", "QJ", "C0.1"):
         one_error_line(run("qhalf", options, stdin=rows, exit_code=1), "usage")

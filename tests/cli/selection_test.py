@@ -15,6 +15,14 @@ def rank_of(rows):
     return numpy.linalg.matrix_rank(numpy.array(rows))
 
 
+def test_a_summary_is_text_like_the_other_formats():
+    folder = fresh_folder("summary")
+    rbox("100 s D3 t1", folder / "points.npy")
+    for formats, areas in (("s", 0), ("FA", 1), ("n,s,FA", 1)):
+        text = run("hull", folder / "points.npy", "--format", formats, "--quiet").stdout
+        assert text.count("vertices  100") == 1 and text.count("size      area") == areas, text
+
+
 def test_every_output_has_the_selected_facets_and_no_others():
     folder = fresh_folder("outputs")
     rbox("300 s D4 t1", folder / "points.npy")

@@ -46,7 +46,18 @@ void check_accuracy(const Accuracy& accuracy) {
       ((!accuracy.width.is_set() && accuracy.facets == 0) || accuracy.is_for_volume()))
     refuse("--effort thorough without a target width", "add --width, or --facets without --objective volume");
   if (accuracy.width_cap.is_set() && !accuracy.merges_neighbours())
-    refuse("--width-cap without merging", "add --centrum-radius or --max-cosine, or ask for --width");
+    refuse("--width-cap without --centrum-radius or --max-cosine", "add one of these: a target needs no cap");
+}
+
+/// Facets of several simplices have one plane.
+void check_triangulate(const HullOptions& options) {
+  const Accuracy& accuracy = options.accuracy;
+  if (!options.triangulate) return;
+  if (accuracy.width.is_set() || accuracy.facets > 0 || accuracy.merges_neighbours())
+    throw Error(
+        ErrorCode::kUsage,
+        "found --triangulate with facets of several simplices, which have one plane; leave it out, and "
+        "print simplices with --format Ft or i");
 }
 
 }  // namespace
@@ -107,7 +118,7 @@ void HullOptionSet::add_to(CLI::App& command) {
       ->check(whole_number(1));
   command
       .add_option("--max-seconds", options_.limits.max_seconds,
-                  "limit: seconds of the whole run; growth ends in time for the rest")
+                  "limit: seconds of the whole run but --verify; growth ends in time for the rest")
       ->type_name("S")
       ->check(positive_number());
   command
@@ -139,6 +150,7 @@ HullOptions HullOptionSet::complete() const {
   if (!centrum_radius_.empty()) accuracy.centrum_radius = parse_length(centrum_radius_, "--centrum-radius");
   if (!width_cap_.empty()) accuracy.width_cap = parse_length(width_cap_, "--width-cap");
   check_accuracy(accuracy);
+  check_triangulate(options);
   if (!max_memory_.empty()) options.limits.max_memory_bytes = parse_byte_count(max_memory_, "--max-memory");
   return options;
 }

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "approx/report.h"
+#include "approx/report_json.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -240,9 +241,9 @@ std::string intersection_report(const HalfspaceIntersection& intersection,
               {"options",
                {{"interior_point",
                  context.options.interior_point ? Json(*context.options.interior_point) : Json(nullptr)},
-                {"max_facets", context.options.limits.max_facets},
-                {"max_seconds", context.options.limits.max_seconds},
-                {"max_memory", context.options.limits.max_memory_bytes},
+                {"max_facets", limit(context.options.limits.max_facets)},
+                {"max_seconds", limit(context.options.limits.max_seconds)},
+                {"max_memory", limit(context.options.limits.max_memory_bytes)},
                 {"threads", context.options.threads},
                 {"seed", context.options.seed}}}};
   if (is_empty) {

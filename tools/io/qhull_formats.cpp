@@ -123,11 +123,14 @@ void write_qhull_format(OutputFile& file, std::string_view format, const QhullPr
 }
 
 void write_qhull_formats(OutputFile& file, std::span<const std::string> formats, const QhullPrint& print) {
-  for (const std::string& format : formats) write_qhull_format(file, format, print);
-  const auto has = [formats](std::string_view name) {
-    return std::find(formats.begin(), formats.end(), name) != formats.end();
-  };
-  if (has("s") || has("FA")) std::fputs(qhull_summary(print, has("FA")).c_str(), stderr);
+  const bool with_area = std::find(formats.begin(), formats.end(), "FA") != formats.end();
+  bool has_summary = false;  // one for both, in the first's place
+  for (const std::string& format : formats) {
+    write_qhull_format(file, format, print);
+    if ((format != "s" && format != "FA") || has_summary) continue;
+    file.print("{}", qhull_summary(print, with_area));
+    has_summary = true;
+  }
 }
 
 std::string qhull_summary(const QhullPrint& print, bool with_area) {

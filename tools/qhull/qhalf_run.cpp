@@ -110,7 +110,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   IntersectionOptions options;
   options.interior_point = file.interior_point;
-  if (!command.interior_point.empty()) {
+  if (!options.interior_point && !command.interior_point.empty()) {  // Qhull too prefers the input's
     options.interior_point = command.interior_point;
     // Coordinates that are not given are 0, as Qhull takes them.
     if (command.interior_point.size() < file.dimension) options.interior_point->resize(file.dimension, 0.0);

@@ -68,7 +68,7 @@ void add_qhalf_command(CLI::App& app, int& exit_code) {
       app, "qhalf", "The intersection of halfspaces, with the options and formats of Qhull's qhalf.",
       arguments);
   command->footer(
-      "Input    TI FILE, cdd's too (Fd is accepted); Hx,y,z an interior point, else the one in the input, "
+      "Input    TI FILE, cdd's too (Fd is accepted); an interior point: the one in the input, else Hx,y,z, "
       "else\n"
       "         one is found\n"
       "Print    Fp (vertices) Fv i (their halfspaces) Fn (their neighbours) Fx (non-redundant halfspaces)\n"
