@@ -8,6 +8,7 @@
 
 namespace ndhull {
 
+/// A deadline and a request to stop. Cost  a look at the clock a call.
 class WorkEnd {
  public:
   using Clock = std::chrono::steady_clock;
@@ -17,7 +18,9 @@ class WorkEnd {
   WorkEnd(double max_seconds, std::stop_token stop, Clock::time_point start = Clock::now())
       : start_(start), max_seconds_(max_seconds), stop_(std::move(stop)) {}
 
+  /// One of both.
   bool is_here() const { return stop_.stop_requested() || is_late(); }
+  /// The deadline alone.
   bool is_late() const { return max_seconds_ > 0.0 && seconds() > max_seconds_; }
   /// As in Limits: 0 without a limit, else more than 0.
   double seconds_left() const { return max_seconds_ > 0.0 ? std::max(max_seconds_ - seconds(), 1e-9) : 0.0; }

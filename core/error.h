@@ -28,7 +28,7 @@ enum class ErrorCode {
   kDimensionTooHigh,  ///< the affine rank is above kMaxDimension
   kTooManyPoints,     ///< more rows than 32-bit ids can number
   kTooManySimplices,  ///< a hull that was found without its simplices has too many to list
-  kBadHalfspace,      ///< a zero normal
+  kBadHalfspace,      ///< a zero normal, a point that is not inside, or planes that doubles do not tell apart
 };
 
 std::string_view to_string(ErrorCode code);

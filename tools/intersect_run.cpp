@@ -30,6 +30,16 @@ std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
   return outputs;
 }
 
+/// What is thrown of the halfspaces names their file.
+HalfspaceIntersection intersect_file(const HalfspaceFile& file, const IntersectionOptions& options) {
+  try {
+    return intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1),
+                                options);
+  } catch (const Error& error) {
+    throw Error(error.code(), file.path + ": " + error.what());
+  }
+}
+
 void write_vertices(const IntersectRequest& request, const HalfspaceIntersection& intersection) {
   if (!request.vertices_path.empty()) {
     PointWriter writer(request.vertices_path,
@@ -70,8 +80,7 @@ int run_intersect(const IntersectRequest& request) {
   context.read_seconds = seconds_since(start);
 
   interrupt.arm();
-  const HalfspaceIntersection intersection = intersect_halfspaces(
-      PointView::row_major(file.rows.data(), file.count, file.dimension + 1), context.options);
+  const HalfspaceIntersection intersection = intersect_file(file, context.options);
   progress.clear();
 
   const bool has_vertices = intersection.kind == IntersectionKind::kBounded ||

@@ -14,7 +14,9 @@ inline constexpr double kDroppedInside = 1e-9;
 /// Is a point of a small sample inside a small hull of it? If none is, as on spheres, a larger hull holds
 /// hardly any either.
 ///
-/// Shapes  sample: rows x d, finite, d in 2 .. 16. True when it spans less than d dimensions.
+/// Shapes   sample: rows x d, finite, d in 2 .. 16. seed: of the hull's shifts.
+/// Returns  true also when the sample spans less than d dimensions.
+/// Cost     growth to 128 simplices a dimension, and locating some 512 points.
 bool holds_some_of(const PointView& sample, std::uint64_t seed);
 
 }  // namespace ndhull

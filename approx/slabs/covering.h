@@ -13,7 +13,7 @@
 
 namespace ndhull {
 
-/// Was it, or is it that of a simplex which stayed alone?
+/// Were its height and low measured? Not those of a simplex that stayed alone, with its own normal.
 inline bool is_measured(const FittedPlane& plane) { return plane.height > 0.0; }
 
 /// Which simplices make up which facet, with the planes.

@@ -41,7 +41,7 @@ FittedPlane measure_plane(const WidthSpace& space, std::span<const double> norma
 double lowest_dot(const WidthSpace& space, std::span<const double> normal,
                   std::span<const std::uint32_t> vertices);
 
-/// rows: the vertices whose products with the direction that was measured last are `least` or more; some, and
+/// rows: all vertices whose products with the direction that was measured last are `least` or more; some, and
 /// where the space is large any, that are less may be among them.
 void list_vertices_from(const WidthSpace& space, double least, const PlaneFitWork& work,
                         std::vector<std::uint32_t>& rows);
@@ -56,7 +56,8 @@ double turn_among_near(const WidthSpace& space, const FittedPlane& start,
                        std::span<const std::uint32_t> vertices, unsigned steps, PlaneFitWork& work);
 
 /// The same from `normal` with the facet's vertices and the points `near` alone: what comes out is as narrow
-/// as the facet can be, but for what the steps miss. No product with other points.
+/// as the facet can be, but for what the steps miss. No product with other points. Returns the width among
+/// those points, of work.best.
 double turn_among(const WidthSpace& space, std::span<const double> normal,
                   std::span<const std::uint32_t> near, std::span<const std::uint32_t> vertices,
                   unsigned steps, PlaneFitWork& work);

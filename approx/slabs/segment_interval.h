@@ -8,7 +8,8 @@ namespace ndhull {
 /// The places u on the segment at which all vertices so far are in the slab.
 class Interval {
  public:
-  /// By how much a vertex is too deep at u = 0 and at u = 1.
+  /// By how much a vertex is too deep at u = 0 and at u = 1: its depth less the width, in any unit that both
+  /// have in common. None left: begin is above end, and length() below 0.
   void take(double excess_first, double excess_last) {
     if (excess_first > 0.0) {
       begin_ = std::max(begin_, excess_last < 0.0 ? excess_first / (excess_first - excess_last) : 2.0);

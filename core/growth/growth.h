@@ -101,7 +101,7 @@ struct GrowthWork {
 /// Which points growth begins with. Points placed early are moved again and again.
 struct FirstPoints {
   std::size_t most = SIZE_MAX;  ///< about so many, the highest over the first simplex
-  std::size_t stride = 1;       ///< of the points only every so-manieth
+  std::size_t stride = 1;       ///< of the points only every stride-th
 };
 
 /// Makes the first simplex from rank + 1 affinely independent points around 0. Puts the points of `first`

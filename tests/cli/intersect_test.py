@@ -180,6 +180,13 @@ def test_vertices_that_do_not_exist_are_an_error():
     assert "empty" in done.stderr
 
 
+def test_errors_of_the_region_name_the_file():
+    folder = fresh_folder("named")
+    numpy.save(folder / "rows.npy", cube(3))
+    done = run("intersect", folder / "rows.npy", "--interior-point", "2 0 0", exit_code=1)
+    assert done.stderr.startswith(f"ndhull: bad-halfspace: {folder / 'rows.npy'}: halfspace"), done.stderr
+
+
 def test_bad_halfspaces():
     one_error_line(run("intersect", "-", exit_code=1, stdin=qhull_text([[1, 0, 1], [0, 0, 1]])), "bad-halfspace")
     one_error_line(run("intersect", "-", exit_code=1, stdin=b"3\n1\n1 nan 1\n"), "not-finite")
