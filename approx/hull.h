@@ -176,8 +176,8 @@ class Hull {
   double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
   /// Input units, >= 0. Of a merged facet: of the projection of its simplices onto its plane, less what
   /// faces the other way.
-  /// Cost  the first call for an approximate hull makes the areas of all facets (approx/facets/later_areas.h); several
-  ///       threads may make it.
+  /// Cost  the first call for an approximate hull makes the areas of all facets (approx/facets/later_areas.h);
+  ///       several threads may make it.
   double area_of(FacetId facet) const { return areas()[facet.value]; }
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;
@@ -195,7 +195,8 @@ class Hull {
   /// The facets' simplices, compacted; without planes: those of the facets are here. Throws, as the two calls
   /// above that name simplices do, Error kTooManySimplices: a hull that was found without them has more than
   /// 2^27, or rounding makes others of its vertices than it was found with. Cost  the first call for such a
-  /// hull makes them (approx/facets/later_simplices.h), with the memory and time of growth; several threads may make it.
+  /// hull makes them (approx/facets/later_simplices.h), with the memory and time of growth; several
+  /// threads may make it.
   const SimplicialComplex& simplices() const;
   bool is_simplicial(FacetId facet) const { return facet.value < layout_.simplicial; }
 

@@ -37,7 +37,8 @@ double default_joggle(const PointView& points);
 /// Growth met a decision within rounding, or the points span fewer dimensions than they have. The rounding of
 /// a decision is taken as 2^-52 (d^1.5 + 1) relative to the hull's own size: joggle_roundoff's share of half
 /// an extent. Counted are decisions whether a facet is visible from a point that is added, the bulk of what
-/// Qhull counts; it also counts nearly singular planes, of which there are none here (approx/DESIGN.md, Joggled input).
+/// Qhull counts; it also counts nearly singular planes, of which there are none here (approx/DESIGN.md,
+/// Joggled input).
 bool has_precision_problem(const Hull& hull);
 
 /// Options for hulls whose decisions are watched: facets stay simplices unless a width is asked for.

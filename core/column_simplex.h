@@ -77,8 +77,8 @@ struct LpResult {
 /// Ties    of the ratio test are settled by a second right side, a random vector (always the same one) that
 ///         is infinitely smaller than the first: no cycling on degenerate programs.
 /// Rounding  Columns that are parallel but for 1e-11 of their size may be exchanged without end. After 250
-///         pivots and 25 a row the tolerances are 100 times larger, after twice as many 10,000 times: `pivots` says
-///         so.
+///         pivots and 25 a row the tolerances are 100 times larger, after twice as many 10,000 times: `pivots`
+///         says so.
 /// Cost    O(rows^2) a pivot, and O(rows^3) for each of the regular refactorisations.
 class ColumnSimplex {
  public:

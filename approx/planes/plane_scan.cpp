@@ -4,8 +4,8 @@
 // 1. A task takes a chunk of planes and a slab of points. It subtracts the reference, finds the largest
 //    |x_k - r_k| of the slab, and from that one error bound for each plane.
 // 2. The vector loop returns values above a threshold: pairs that may be above (value > -bound), and pairs
-//    that may be the worst of all. What the worst is at least is known to all tasks and only rises, so a pair that
-//    is passed over can never be it: the result does not depend on the order of the tasks.
+//    that may be the worst of all. What the worst is at least is known to all tasks and only rises, so a pair
+//    that is passed over can never be it: the result does not depend on the order of the tasks.
 // 3. For what it returns, double arithmetic decides where it can, plane_value where it cannot.
 //
 // Error bound, u = 2^-53, S = sum |n_k| max |x_k - r_k| + |offset| + |claimed unit|: the difference adds u to

@@ -1,10 +1,10 @@
 // The driver. Steps in order, with the file that holds each:
-//   1 halfspaces   approx/polytope/halfspace_set       unit normals, distances without cancellation
-//   2 region       approx/polytope/halfspace_region    a point inside, the subspace, or the proof that there
-//   is nothing 3 centre       approx/polytope/region_centre       a point well inside, or a direction without
-//   end 4 dual hull    approx/polytope/plane_polytope      vertices as facets of the hull of the dual points
-//   5 vertices approx/polytope/polytope_vertices   refined on the planes as given, coincident ones merged 6
-//   measure approx/polytope/polytope_measure    volume, areas
+//   1 halfspaces  approx/polytope/halfspace_set      unit normals, distances without cancellation
+//   2 region      approx/polytope/halfspace_region   a point inside, the subspace, or proof that there is none
+//   3 centre      approx/polytope/region_centre      a point well inside, or a direction without end
+//   4 dual hull   approx/polytope/plane_polytope     vertices as facets of the hull of the dual points
+//   5 vertices    approx/polytope/polytope_vertices  refined on the planes as given, coincident ones merged
+//   6 measure     approx/polytope/polytope_measure   volume, areas
 #include "approx/polytope/halfspace_intersection.h"
 
 #include <tbb/task_arena.h>

@@ -27,8 +27,8 @@ struct OuterDistance {
 ///
 /// points   those that the hull was made from.
 /// Method   A vertex v of gauge g is between its largest height above a facet and |v| (1 - 1/g) away; in the
-///          order of the second the nearest points of the hull are computed (approx/geometry/hull_distance.h), until no other
-///          vertex can be further. After 2,000 of them, with max_simplices perhaps fewer, the bound of the
+///          order of the second the nearest points of the hull are computed (approx/geometry/hull_distance.h), until
+///          no other vertex can be further. After 2,000 of them, with max_simplices perhaps fewer, the bound of the
 ///          rest is taken. Rounding of the vertices themselves is not part of the bounds.
 /// Returns  no distance where outer_volume has no volume or would not in max_seconds (0: no limit), and with
 /// max_simplices when facets times vertices

@@ -41,8 +41,8 @@ FacetClusters clusters_of(const Covering& covering, const WidthSpace& space);
 
 /// The fewest facets that a hull can have: one for each facet of the frame's first simplex, whose normals
 /// bound a region, none empty. Every simplex goes where it lies highest.
-/// Shapes  coordinates: points x rank,
-/// in the frame.
+///
+/// Shapes  coordinates: points x rank, in the frame.
 Covering cover_by_first_simplex(const SimplicialComplex& complex, const WidthSpace& space, const Frame& frame,
                                 const double* coordinates);
 

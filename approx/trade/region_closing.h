@@ -35,8 +35,9 @@ struct HullFacets {
 /// Shapes    coordinates: points x rank, in the frame.
 /// Not promised  that a direction is closed where points share planes: the facet found there may be divided
 ///           into other simplices, and the one that faces it most is taken, however far points are above it.
-/// Cost      a search for an open direction (approx/geometry/boundedness.h) for each, and a product for each simplex; for
-///           each facet looked for a linear program with a column for each point, and a look at each simplex.
+/// Cost      a search for an open direction (approx/geometry/boundedness.h) for each, and a product
+///           for each simplex; for each facet looked for a linear program with a column for each point, and a
+///           look at each simplex.
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
                                   const double* coordinates, HullFacets* known, Covering& covering);
 
