@@ -31,8 +31,11 @@ namespace ndhull {
 /// Limits on the work; 0 means none. A limit that is hit ends growth; what is there is completed,
 /// certified and labelled by Hull::status.
 struct Limits {
-  std::uint64_t max_facets = 0;        ///< simplices of the growth complex
-  double max_seconds = 0.0;            ///< wall clock of the whole call: growth ends in time for the rest
+  std::uint64_t max_facets = 0;  ///< simplices of the growth complex
+  double max_seconds = 0.0;      ///< wall clock of the whole call: growth ends in time for the rest
+  /// What the caller does with each facet within max_seconds after the call, as a share of what growth took for it:
+  /// growth ends in time for that as well. Not of approximate hulls, whose facets are few.
+  double share_afterwards = 0.0;
   std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
   /// What the machine has for them: ends growth where max_memory_bytes is 0, and changes nothing before.
   std::uint64_t machine_memory_bytes = 0;
@@ -170,6 +173,9 @@ class Hull {
   std::span<const double> normal(FacetId facet) const {
     return {normals_.data() + facet.value * dimension, dimension};
   }
+  std::span<const double> normals() const {
+    return {normals_.data(), facet_count() * dimension};
+  }  ///< of all
   double offset(FacetId facet) const;
   double centred_offset(FacetId facet) const { return centred_offsets_[facet.value]; }
   double outer_offset(FacetId facet) const { return outer_[facet.value]; }  ///< >= 0, length unit

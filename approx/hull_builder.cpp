@@ -175,7 +175,7 @@ class HullBuilder {
 
   /// Fewer facets than the exact ones, if fewer were asked for.
   void choose_for_volume(std::span<const double> determinants) {
-    constexpr double kShare = 0.6;  // of the limit; simplices and the facet table come after it
+    constexpr double kShare = 0.75;  // of the limit; simplices and the facet table come after it
     check_squares(resolve(options_.accuracy, frame_, hull_.length_unit_).largest_extent);
     const WorkEnd end(kShare * options_.limits.max_seconds, options_.stop, start_);
     std::optional<VolumeCover> few =

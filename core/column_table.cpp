@@ -66,26 +66,37 @@ namespace ndhull {
 ColumnTable::ColumnTable(std::size_t height, std::size_t count)
     : height_(height),
       count_(count),
-      values_((count + kBlock - 1) / kBlock * kBlock * (height + 1)),
+      values_(HugeArray<double>::to_write((count + kBlock - 1) / kBlock * kBlock * (height + 1))),
       multipliers_(height + 1),
       entries_(height) {}
 
 void ColumnTable::set(std::size_t column, std::span<const double> entries, double cost) {
   NDHULL_CHECK(column < count_ && entries.size() == height_);
-  // The last column is repeated to the end of its block: a repetition is never the first of a tie.
-  const std::size_t copies = column + 1 == count_ ? values_.size() / (height_ + 1) - column : 1;
-  for (std::size_t copy = column; copy < column + copies; ++copy) {
+  for (std::size_t copy = column, end = column + copies_of(column); copy < end; ++copy) {
     for (std::size_t row = 0; row < height_; ++row) values_[index(copy, row)] = entries[row];
     values_[index(copy, height_)] = cost;
   }
 }
 
+void ColumnTable::set_cost(std::size_t column, double cost) {
+  NDHULL_CHECK(column < count_);
+  for (std::size_t copy = column, end = column + copies_of(column); copy < end; ++copy)
+    values_[index(copy, height_)] = cost;
+}
+
 ColumnTable::Best ColumnTable::largest_product(std::span<const double> multipliers) const {
-  NDHULL_CHECK(count_ > 0 && multipliers.size() == height_ + 1);
+  return largest_product(multipliers, 0, count_);
+}
+
+ColumnTable::Best ColumnTable::largest_product(std::span<const double> multipliers, std::size_t first,
+                                               std::size_t last) const {
+  NDHULL_CHECK(first < last && last <= count_ && multipliers.size() == height_ + 1);
   Best best{0, -HUGE_VAL};
-  const std::size_t blocks = values_.size() / (kBlock * (height_ + 1));
+  const std::size_t begin = first / kBlock, end = (last + kBlock - 1) / kBlock;
   NDHULL_BEST_OF(search_blocks)
-  (values_.data(), blocks, kBlock, height_ + 1, multipliers.data(), best.product, best.column);
+  (values_.data() + begin * kBlock * (height_ + 1), end - begin, kBlock, height_ + 1, multipliers.data(),
+   best.product, best.column);
+  best.column += begin * kBlock;
   return best;
 }
 

@@ -16,8 +16,6 @@ using Vector = Eigen::VectorXd;
 
 /// Products so near the highest may belong to the simplex that the ray leaves through. One shift of growth.
 constexpr double kTied = 1e-12;
-/// Products that looking for better simplices everywhere may cost.
-constexpr double kSearchProducts = 1e10;
 
 /// Coordinates of y in the simplex's cone, with the gauge they prove.
 struct ConeCoordinates {
@@ -162,7 +160,7 @@ void try_inside(const SimplicialComplex& complex, const double* points, const Hu
 
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
                                        const HullBall& ball, std::span<const PointId> queries, double useful,
-                                       std::uint64_t& searched_all) {
+                                       std::uint64_t& searched_all, double most_products) {
   std::vector<LocatedPoint> located = unlocated(queries);
   locate_in_cones(complex, points, ball, points, true, located);
   const Walker walker(complex, points, ball, useful);
@@ -175,7 +173,7 @@ std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const d
     if (!walker.is_settled(located[i])) unsettled.push_back(i);
   const double products =
       static_cast<double>(unsettled.size()) * static_cast<double>(complex.row_count * complex.rank);
-  if (products > kSearchProducts) return located;
+  if (products > most_products) return located;
   for_each_block(unsettled.size(), 1,
                  [&](std::size_t begin, std::size_t) { walker.search_all(located[unsettled[begin]]); });
   searched_all += unsettled.size();

@@ -30,6 +30,9 @@ struct HullBall {
   double reach = 0.0;         ///< longest point
 };
 
+/// Products that looking for better simplices everywhere may cost.
+inline constexpr double kSearchProducts = 1e10;
+
 /// Radius of a ball around 0 inside the simplex with these rank + 1 vertices, and the reach of all points.
 HullBall find_ball(std::size_t rank, const double* points, std::size_t point_count,
                    std::span<const PointId> simplex);
@@ -41,10 +44,10 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 /// useful  slack in a proof that is worth looking for a better simplex. [ratio]
 /// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query. Where
 ///         walking ends in a proof with slack all simplices are tried (counted in `searched_all`), unless
-///         that would be more than some 1e10 products in all: then the proofs stay as they are.
+///         that would be more than `most_products`, one for each coordinate: then the proofs stay as they are.
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
                                        const HullBall& ball, std::span<const PointId> queries, double useful,
-                                       std::uint64_t& searched_all);
+                                       std::uint64_t& searched_all, double most_products = kSearchProducts);
 
 /// The same with hill climbing alone: what is not proven at once is +inf or far too large. Points above the
 /// simplex found are not proven at all: their slack is +inf, their gauge how far they are above it.

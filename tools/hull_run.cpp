@@ -128,6 +128,18 @@ Limits limits_left(Limits limits, Clock::time_point start) {
   return limits;
 }
 
+/// What is done with each facet of an exact hull once there are facets, for Limits::share_afterwards. Measured in 5-d
+/// to 11-d.
+double share_afterwards(const HullRequest& request) {
+  constexpr double kText = 8.0, kBytes = 1.5, kBounding = 2.0;
+  if (!request.options.accuracy.is_exact()) return 0.0;
+  double share = request.selection.bounded ? kBounding : 0.0;
+  if (request.selection.is_set()) return share;  // few are written
+  if (!request.planes_path.empty()) share += request.planes_path.ends_with(".npy") ? kBytes : kText;
+  if (request.facet_list) share += kText;
+  return share + kText * static_cast<double>(request.formats.size());
+}
+
 /// How large a mapped file may be to stay in memory: a small part of what is allowed.
 std::size_t kept_file_bytes(const Limits& limits) {
   return limits.max_memory_bytes == 0 ? kKeptFileBytes
@@ -206,6 +218,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   interrupt.arm();
   HullOptions hull_options = context.options;
   hull_options.limits = limits_left(hull_options.limits, start);
+  hull_options.limits.share_afterwards = share_afterwards(request);
   // Both look at all simplices: of an approximate hull the complex is kept then, whatever it takes.
   if (!hull_options.accuracy.is_exact())
     hull_options.wants_simplices = request.verify.has_value() || !request.formats.empty();
@@ -236,9 +249,8 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   if (request.selection.is_set()) {
     progress.show_phase("select");
     const Clock::time_point select_start = Clock::now();
-    selection =
-        select_facets(hull, request.selection,
-                      WorkEnd(seconds_for_measure(request.options.limits, start), context.options.stop));
+    const WorkEnd end(seconds_for_measure(request.options.limits, start), context.options.stop);
+    arena.execute([&] { selection = select_facets(hull, request.selection, end, &points); });
     context.select_seconds = seconds_since(select_start);
     context.selection = &*selection;
     progress.clear();
@@ -251,7 +263,6 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
     progress.show_phase("outer volume");
     const Clock::time_point volume_start = Clock::now();
     arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });
-    context.outer_volume_seconds = seconds_since(volume_start);
     context.outer_volume = &*outer;
     if (selection && selection->bounded) {
       const std::uint64_t limit =
@@ -263,6 +274,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
       });
       context.outer_distance = &*outer_reach;
     }
+    context.outer_volume_seconds = seconds_since(volume_start);
   }
 
   progress.show_phase("write");

@@ -7,7 +7,9 @@
 
 #include "approx/geometry/even_normals.h"
 #include "approx/geometry/subspace.h"
+#include "core/blocks.h"
 #include "core/column_table.h"
+#include "core/dense_views.h"
 #include "core/error.h"
 
 namespace ndhull {
@@ -20,15 +22,10 @@ using Eigen::VectorXd;
 /// [ratio] Evenly spread unit normals that reach less far than this in a direction leave it open. Far above
 /// the rounding of the map, far below any region one would want to look at.
 constexpr double kOpen = 1e-10;
-/// Weightings of the selected normals that completions are tried with.
-constexpr std::uint32_t kWeightings = 8;
 
 /// Unit normals, one a row, in the coordinates of the subspace.
-RowMatrix unit_rows(std::span<const double> normals, std::size_t dimension, const MatrixXd& directions) {
-  const auto columns = static_cast<Index>(dimension);
-  const Eigen::Map<const RowMatrix> given(normals.data(), static_cast<Index>(normals.size() / dimension),
-                                          columns);
-  RowMatrix rows = given * directions;
+RowMatrix unit_rows(const Eigen::Ref<const RowMatrix>& normals, const MatrixXd& directions) {
+  RowMatrix rows = normals * directions;
   rows.rowwise().normalize();
   return rows;
 }
@@ -74,70 +71,133 @@ std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
   return direction;
 }
 
-RowMatrix rows_of(const RowMatrix& all, const std::vector<std::uint32_t>& ids) {
-  RowMatrix rows(static_cast<Index>(ids.size()), all.cols());
-  for (std::size_t k = 0; k < ids.size(); ++k) rows.row(static_cast<Index>(k)) = all.row(ids[k]);
-  return rows;
-}
+/// Many evenly spread normals, of which few are to be found.
+class NormalTable {
+ public:
+  /// Cost 1 each.
+  explicit NormalTable(const RowMatrix& rows) : table_(table_of(rows, 1.0)) {}
+  /// Unit rows that `map` makes of the normals.
+  NormalTable(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions, const MatrixXd& map)
+      : table_(static_cast<std::size_t>(map.cols()), static_cast<std::size_t>(normals.rows())) {
+    for_each_block(table_.count(), kPart, [&](std::size_t begin, std::size_t end) {
+      RowMatrix rows;
+      for (std::size_t row = begin; row < end; row += kRowsAtATime) {
+        const auto used = static_cast<Index>(std::min(kRowsAtATime, end - row));
+        rows = unit_rows(normals.middleRows(static_cast<Index>(row), used), directions) * map;
+        rows.rowwise().normalize();
+        for (Index k = 0; k < used; ++k)
+          table_.set(row + static_cast<std::size_t>(k), {&rows(k, 0), table_.height()}, 1.0);
+      }
+    });
+  }
+
+  std::size_t count() const { return table_.count(); }
+  std::size_t rank() const { return table_.height(); }
+  void set_cost(std::uint32_t row, double cost) { table_.set_cost(row, cost); }
+  VectorXd row(std::uint32_t id) const {
+    VectorXd values(static_cast<Index>(rank()));
+    for (std::size_t k = 0; k < rank(); ++k) values[static_cast<Index>(k)] = table_.entry(id, k);
+    return values;
+  }
+  RowMatrix rows(std::span<const std::uint32_t> ids) const {
+    RowMatrix rows(static_cast<Index>(ids.size()), static_cast<Index>(rank()));
+    for (std::size_t k = 0; k < ids.size(); ++k) rows.row(static_cast<Index>(k)) = row(ids[k]).transpose();
+    return rows;
+  }
+  std::uint32_t furthest_along(const VectorXd& direction) const {
+    std::vector<double> multipliers(direction.data(), direction.data() + direction.size());
+    multipliers.push_back(0.0);
+    return static_cast<std::uint32_t>(table_.largest_product(multipliers).column);
+  }
+
+  /// A sum of rows, each times 0 or more, that is `right_side`, at the least cost.
+  LpResult balance(const VectorXd& right_side) {
+    ColumnSimplex lp(as_span(right_side));
+    std::size_t part = 0;
+    return solve_lp(lp, [&](const LpQuery& query) { return price(query, part); });
+  }
+
+ private:
+  static constexpr std::size_t kPart = 4096;  // columns
+  static constexpr std::size_t kRowsAtATime = 256;
+
+  /// The best column of the first part, from `part` on, that has one that improves (partial pricing); the best of
+  /// all where none has.
+  std::optional<LpColumn> price(const LpQuery& query, std::size_t& part) {
+    constexpr double kRounding = 1e-9;  // of products of unit rows
+    if (count() == 0) return std::nullopt;
+    const std::size_t parts = (count() + kPart - 1) / kPart;
+    std::vector<double> multipliers(query.duals.begin(), query.duals.end());
+    multipliers.push_back(-query.cost_weight);
+    ColumnTable::Best best{0, -HUGE_VAL};
+    for (std::size_t k = 0; k < parts && best.product <= kRounding; ++k, part = (part + 1) % parts) {
+      const ColumnTable::Best found =
+          table_.largest_product(multipliers, part * kPart, std::min(count(), (part + 1) * kPart));
+      if (found.product > best.product) best = found;
+    }
+    return table_.column(best.column);
+  }
+
+  ColumnTable table_;
+};
 
 /// Finds rows that complete a selection among evenly spread normals.
 class Completion {
  public:
-  Completion(const RowMatrix& rows, std::span<const std::uint32_t> selected)
-      : rows_(rows), selected_(selected.begin(), selected.end()) {}
+  Completion(NormalTable& normals, std::vector<std::uint32_t> selected)
+      : normals_(normals), selected_(std::move(selected)) {}
 
   bool is_bounded(const std::vector<std::uint32_t>& added) const {
-    std::vector<std::uint32_t> ids = selected_;
-    ids.insert(ids.end(), added.begin(), added.end());
-    return !open_among(rows_of(rows_, ids));
+    return !open_among(normals_.rows(together(added)));
   }
 
   /// What the selected normals sum up to, weighted, has to be balanced: that takes at most rank normals, and
   /// new ones cost while selected ones do not.
   std::vector<std::uint32_t> complete(std::uint32_t weighting) {
     std::vector<std::uint32_t> added;
-    std::vector<bool> is_chosen(static_cast<std::size_t>(rows_.rows()), false);
-    for (const std::uint32_t id : selected_) is_chosen[id] = true;
+    std::vector<bool> is_chosen(normals_.count(), false);
     const auto choose = [&](std::uint32_t id) {
       if (is_chosen[id]) return false;
       is_chosen[id] = true;
-      added.push_back(id);
+      normals_.set_cost(id, 0.0);
       return true;
     };
-    while (true) {
+    const auto add = [&](std::uint32_t id) {
+      const bool is_new = choose(id);
+      if (is_new) added.push_back(id);
+      return is_new;
+    };
+    for (const std::uint32_t id : selected_) choose(id);
+    std::optional<VectorXd> open;
+    do {
       bool progress = false;
-      for (const LpColumnId id : balance(added, is_chosen, weighting).basis) {
-        if (id.valid()) progress |= choose(id.value);
+      for (const LpColumnId id : normals_.balance(imbalance(added, weighting)).basis) {
+        if (id.valid()) progress |= add(id.value);
       }
-      std::vector<std::uint32_t> ids = selected_;
-      ids.insert(ids.end(), added.begin(), added.end());
-      const std::optional<VectorXd> open = open_among(rows_of(rows_, ids));
-      if (!open) return thinned(added);
-      if (progress) continue;
-      Index furthest = 0;
-      (rows_ * *open).maxCoeff(&furthest);
-      if (!choose(static_cast<std::uint32_t>(furthest))) return {};
-    }
+      open = open_among(normals_.rows(together(added)));
+      if (open && !progress && !add(normals_.furthest_along(*open))) break;
+    } while (open);
+    for (const std::uint32_t id : added) normals_.set_cost(id, 1.0);
+    return open ? std::vector<std::uint32_t>() : thinned(std::move(added));
   }
 
  private:
-  LpResult balance(const std::vector<std::uint32_t>& added, const std::vector<bool>& is_chosen,
-                   std::uint32_t weighting) {
-    ColumnTable table = table_of(rows_, 1.0);
-    for (std::size_t row = 0; row < is_chosen.size(); ++row) {
-      if (is_chosen[row]) table.set(row, {&rows_(static_cast<Index>(row), 0), table.height()}, 0.0);
-    }
-    VectorXd sum = VectorXd::Zero(rows_.cols());
+  std::vector<std::uint32_t> together(const std::vector<std::uint32_t>& added) const {
+    std::vector<std::uint32_t> ids = selected_;
+    ids.insert(ids.end(), added.begin(), added.end());
+    return ids;
+  }
+
+  VectorXd imbalance(const std::vector<std::uint32_t>& added, std::uint32_t weighting) const {
+    VectorXd sum = VectorXd::Zero(static_cast<Index>(normals_.rank()));
     std::uint32_t place = 0;
-    const auto add = [&](std::uint32_t id) {
+    for (const std::uint32_t id : together(added)) {
       // Weights 1 first, then all kinds between 1/2 and 3/2 (fractional parts of multiples of the golden
       // ratio).
       const double turn = 0.6180339887498949 * static_cast<double>(++place * weighting);
-      sum += (weighting == 0 ? 1.0 : 0.5 + turn - std::floor(turn)) * rows_.row(id).transpose();
-    };
-    for (const std::uint32_t id : selected_) add(id);
-    for (const std::uint32_t id : added) add(id);
-    return solve(table, sum.norm() > 0.0 ? VectorXd(-sum.normalized()) : sum);
+      sum += (weighting == 0 ? 1.0 : 0.5 + turn - std::floor(turn)) * normals_.row(id);
+    }
+    return sum.norm() > 0.0 ? VectorXd(-sum.normalized()) : sum;
   }
 
   std::vector<std::uint32_t> thinned(std::vector<std::uint32_t> added) const {
@@ -154,9 +214,37 @@ class Completion {
     return added;
   }
 
-  const RowMatrix& rows_;
+  NormalTable& normals_;
   std::vector<std::uint32_t> selected_;
 };
+
+/// The map that spreads the normals evenly; of many an even part tells. Nothing: all are orthogonal to something.
+std::optional<MatrixXd> even_map(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions) {
+  constexpr Index kEnough = 32'768;
+  const auto of_each = [&](Index step) -> std::optional<MatrixXd> {
+    RowMatrix rows((normals.rows() + step - 1) / step, normals.cols());
+    for (Index row = 0; row < rows.rows(); ++row) rows.row(row) = normals.row(row * step);
+    const EvenNormals even = spread_evenly(unit_rows(rows, directions));
+    if (even.orthogonal) return std::nullopt;
+    return even.map;
+  };
+  const Index step = normals.rows() / kEnough + 1;
+  std::optional<MatrixXd> map = of_each(step);
+  return map || step == 1 ? map : of_each(1);
+}
+
+/// The smallest completion of several weightings. Empty: there is none.
+std::vector<std::uint32_t> smallest_completion(NormalTable& normals,
+                                               std::span<const std::uint32_t> selected) {
+  constexpr std::uint32_t kWeightings = 8;
+  Completion completion(normals, {selected.begin(), selected.end()});
+  std::vector<std::uint32_t> best = completion.complete(0);
+  for (std::uint32_t weighting = 1; weighting < kWeightings && best.size() != 1; ++weighting) {
+    std::vector<std::uint32_t> added = completion.complete(weighting);
+    if (!added.empty() && added.size() < best.size()) best = std::move(added);
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -164,10 +252,10 @@ Boundedness find_open_direction(std::span<const double> normals, std::size_t dim
                                 std::span<const double> equations, std::span<const double> others) {
   const MatrixXd directions = subspace_directions(dimension, equations);
   if (directions.cols() == 0) return {true, {}, 0.0};  // a point
-  const RowMatrix rows = unit_rows(normals, dimension, directions);
+  const RowMatrix rows = unit_rows(as_rows(normals, dimension), directions);
   RowMatrix all = rows;
   if (!others.empty()) {
-    const RowMatrix further = unit_rows(others, dimension, directions);
+    const RowMatrix further = unit_rows(as_rows(others, dimension), directions);
     all.conservativeResize(rows.rows() + further.rows(), Eigen::NoChange);
     all.bottomRows(further.rows()) = further;
   }
@@ -183,15 +271,11 @@ std::vector<std::uint32_t> complete_to_bounded(std::span<const double> normals, 
                                                std::span<const double> equations) {
   const MatrixXd directions = subspace_directions(dimension, equations);
   if (directions.cols() == 0) return {};
-  const EvenNormals even = spread_evenly(unit_rows(normals, dimension, directions));
-  if (!even.orthogonal) {
-    Completion completion(even.rows, selected);
-    if (completion.is_bounded({})) return {};
-    std::vector<std::uint32_t> best;
-    for (std::uint32_t weighting = 0; weighting < kWeightings; ++weighting) {
-      std::vector<std::uint32_t> added = completion.complete(weighting);
-      if (!added.empty() && (best.empty() || added.size() < best.size())) best = std::move(added);
-    }
+  const Eigen::Map<const RowMatrix> rows = as_rows(normals, dimension);
+  if (const std::optional<MatrixXd> map = even_map(rows, directions)) {
+    NormalTable table(rows, directions, *map);
+    if (Completion(table, {selected.begin(), selected.end()}).is_bounded({})) return {};
+    std::vector<std::uint32_t> best = smallest_completion(table, selected);
     if (!best.empty()) return best;
   }
   std::vector<bool> is_selected(normals.size() / dimension, false);

@@ -28,6 +28,14 @@ HullStatus status_of(GrowthStop stop) {
   return HullStatus::kComplete;
 }
 
+/// The choice of facets for the volume comes after growth, and takes what there is.
+Limits limits_of_growth(const HullOptions& options) {
+  constexpr double kShare = 0.5;
+  Limits limits = options.limits;
+  if (options.accuracy.is_for_volume()) limits.max_seconds *= kShare;
+  return limits;
+}
+
 }  // namespace
 
 CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
@@ -38,7 +46,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       options_(options),
       start_(start),
       hull_(hull),
-      limits_(options.limits, start, options.accuracy.facets > 0) {
+      limits_(limits_of_growth(options), start, options.accuracy.facets > 0) {
   coordinates_ = HugeArray<double>::to_write(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
   work_.rank = frame_.rank;
@@ -177,7 +185,7 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
     tell(Phase::kCertify, work_.points_outside, furthest_height());
     const std::vector<LocatedPoint> located =
         prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), work_.options.shift,
-                     searched_all);
+                     searched_all, affordable_search());
     const bool repaired = stop == GrowthStop::kNoOutsidePoints && round < kRepairRounds && repair(located);
     if (!repaired) list_left_out(located);
     seconds(Phase::kCertify) += seconds_since(phase_start);
@@ -190,6 +198,12 @@ bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& fin
   if (hull_.status == HullStatus::kComplete && leaves_some_out && may_be_rougher()) is_too_rough_ = true;
   report_counters();
   return false;
+}
+
+double CertifiedGrowth::affordable_search() const {
+  constexpr double kSlower = 16.0;  // than products in vectors
+  return std::min(kSearchProducts,
+                  limits_.affordable_products(work_, options_.stop.stop_requested()) / kSlower);
 }
 
 void CertifiedGrowth::grow_from_some() {
@@ -228,7 +242,7 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
   // What is left out on purpose is not near enough to the hull to be proven outside by rounding and no more.
   const double useful = std::max(work_.options.shift, useful_slack);
   list_left_out(prove_inside(work_.complex, coordinates_.data(), ball_, points_off_the_complex(), useful,
-                             searched_all));
+                             searched_all, affordable_search()));
   seconds(Phase::kCertify) += seconds_since(begin);
   report_counters();
 }

@@ -143,6 +143,8 @@ class CertifiedGrowth {
   std::vector<PointId> points_off_the_complex();
   bool repair(const std::vector<LocatedPoint>& located);
   void list_left_out(const std::vector<LocatedPoint>& located);
+  /// Products that looking at all simplices may cost, for points that walks have not located.
+  double affordable_search() const;
   double& seconds(Phase phase) { return hull_.statistics.seconds[static_cast<std::size_t>(phase)]; }
 
   const PointView& points_;

@@ -107,6 +107,7 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
   if (!work.shifted_points.empty()) share += kMergeShare;
+  if (!must_cover_) share += limits_.share_afterwards;
   return static_cast<double>(rows) * share * seconds_per_created(work) +
          static_cast<double>(points) * seconds_per_point_;
 }

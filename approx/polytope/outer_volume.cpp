@@ -128,6 +128,9 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
     return too_many;
   }
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
+  // A hull of so many dual points would take longer before it first looks at the clock.
+  constexpr double kToBegin = 6.0;
+  if (max_seconds > 0.0 && kToBegin * seconds_since(start) > max_seconds) return {std::nullopt, kOutOfTime};
   for (const double height : planes.heights) {
     if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
   }

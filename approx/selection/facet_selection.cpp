@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 #include "approx/geometry/boundedness.h"
@@ -23,7 +22,8 @@ void keep_first(std::uint64_t count, std::vector<std::uint32_t>& ids, std::vecto
 }
 
 /// One flag a facet. The options look at all facets each: their results are intersected.
-std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
+std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end,
+                              const PointView* points) {
   const auto simplices = [&hull](std::uint32_t id) { return hull.simplex_count_of(FacetId{id}); };
   // Areas beyond the range of doubles are the largest: a number that is none must not spoil the order.
   const auto area = [&hull](std::uint32_t id) {
@@ -45,7 +45,7 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options,
     is_kept.assign(is_kept.size(), false);
     const std::vector<FacetId> chosen = options.measure == SelectionMeasure::kVolume
                                             ? choose_for_volume(hull, *options.largest, end)
-                                            : choose_for_distance(hull, *options.largest, end);
+                                            : choose_for_distance(hull, *options.largest, end, points);
     for (const FacetId facet : chosen) is_kept[facet.value] = true;
   } else if (options.largest) {
     keep_first(*options.largest, ids, is_kept, is_larger);
@@ -78,13 +78,14 @@ std::vector<std::uint32_t> some_facets(const Hull& hull) {
 
 }  // namespace
 
-FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end) {
-  const std::vector<bool> is_kept = kept_facets(hull, options, end);
+FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end,
+                             const PointView* points) {
+  const std::vector<bool> is_kept = kept_facets(hull, options, end, points);
   const bool is_chosen = options.largest && options.measure != SelectionMeasure::kArea;
-  std::vector<std::uint32_t> all(hull.facet_count()), ids;
-  std::iota(all.begin(), all.end(), 0U);
-  std::copy_if(all.begin(), all.end(), std::back_inserter(ids),
-               [&](std::uint32_t id) { return is_kept[id]; });
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
+    if (is_kept[id]) ids.push_back(id);
+  }
   const std::vector<double> shape = normals_of(hull, some_facets(hull));
   const auto region_of = [&](const std::vector<std::uint32_t>& chosen) {
     return find_open_direction(normals_of(hull, chosen), hull.dimension, hull.subspace_equations, shape);
@@ -94,7 +95,7 @@ FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, 
   Boundedness region = region_of(ids);
   if (options.bounded && !region.bounded) {
     const std::vector<std::uint32_t> added =
-        complete_to_bounded(normals_of(hull, all), hull.dimension, ids, hull.subspace_equations);
+        complete_to_bounded(hull.normals(), hull.dimension, ids, hull.subspace_equations);
     selection.added = added.size();
     ids.insert(ids.end(), added.begin(), added.end());
     std::sort(ids.begin(), ids.end());

@@ -9,6 +9,7 @@
 
 #include "approx/hull.h"
 #include "approx/work_end.h"
+#include "core/points.h"
 
 namespace ndhull {
 
@@ -43,11 +44,13 @@ struct FacetSelection {
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/geometry/boundedness.h), each of which is needed.
 ///           Facets of a hull always can bound a region. A hull without facets is a point, and bounded.
-/// End       of choosing for volume or distance, which can take minutes: facets still missing then are the
+/// End       of choosing for volume or distance, which can take many seconds: facets still missing then are the
 ///           largest. All else takes little.
+/// points    those that the hull was made from: a choice for distance compares distances with them.
 /// Throws    Error kUsage as choose_for_volume and choose_for_distance do.
 /// Cost      O(facets) and a sort of those kept; a few linear programs over the planes selected, with
 ///           `bounded` over all planes when the selection is open.
-FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end = {});
+FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end = {},
+                             const PointView* points = nullptr);
 
 }  // namespace ndhull

@@ -9,20 +9,24 @@
 #include "approx/geometry/hull_distance.h"
 #include "approx/geometry/subspace.h"
 #include "approx/polytope/outer_volume.h"
+#include "core/blocks.h"
 #include "core/dense_views.h"
-#include "core/stopwatch.h"
 
 namespace ndhull {
 namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kMostNearestPoints = 2000;
-// Where the outer polytope's size is limited so is what comes after: multiplications, a second or less each.
-constexpr double kAffordableHeights = 4e9, kAffordableNearest = 4e8;
+// Where the outer polytope's size is limited so is what comes after: multiplications, some tenths of a second.
+constexpr double kAffordable = 5e8;
+/// Rounds of a search for a nearest point, each a product with all vertices of the hull: what most take that end
+/// early.
+constexpr double kSearchRounds = 8.0;
 
 /// Vertices whose products with all planes are held at once.
-constexpr Index kVertexBlock = 256;
+constexpr std::size_t kVertexBlock = 16;
+/// Vertices between two looks at the clock, and those whose nearest points are looked for side by side.
+constexpr std::size_t kVerticesAtATime = 2048, kSearchesAtATime = 64;
 
 /// The hull's vertices as columns, about its interior point, in the coordinates of its outer planes.
 Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
@@ -37,24 +41,38 @@ Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
   return columns;
 }
 
-/// No point of the hull on the ray through a vertex is further from it than this; nothing once time is up.
-template <class IsLate>
-std::optional<std::vector<double>> most_distances(const Eigen::Map<const RowMatrix>& vertices,
-                                                  const PlanesAboutOrigin& hull_planes,
-                                                  const IsLate& is_late) {
-  const Eigen::Map<const RowMatrix> normals = as_rows(hull_planes.normals, hull_planes.rank);
-  const Eigen::Map<const Eigen::VectorXd> heights(hull_planes.heights.data(), normals.rows());
-  std::vector<double> most(static_cast<std::size_t>(vertices.rows()));
-  Eigen::MatrixXd products;
-  for (Index begin = 0; begin < vertices.rows(); begin += kVertexBlock) {
-    if (is_late()) return std::nullopt;
-    const Index used = std::min(kVertexBlock, vertices.rows() - begin);
-    products.noalias() = normals * vertices.middleRows(begin, used).transpose();
-    for (Index k = 0; k < used; ++k) {
-      const double gauge = (products.col(k).array() / heights.array()).maxCoeff();
-      most[static_cast<std::size_t>(begin + k)] =
-          gauge > 1.0 ? vertices.row(begin + k).norm() * (1.0 - 1.0 / gauge) : 0.0;
-    }
+/// What is below all outer planes is in the hull once it is scaled by 1 - margin about the interior point: then it
+/// is below all inner planes.
+double margin_of(const Hull& hull, const PlanesAboutOrigin& planes) {
+  double margin = 0x1p-52 * (static_cast<double>(planes.rank) + 4.0);  // rounding of a gauge
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
+    const FacetId facet{row};
+    margin = std::max(margin, (hull.outer_offset(facet) - hull.inner_offset(facet)) *
+                                  hull.input_per_length_unit(facet) / planes.heights[row]);
+  }
+  return margin;
+}
+
+/// No vertex is further from the hull than this: on the ray through it the hull ends where a facet's plane does.
+/// What time was too short for is as far as from the interior point.
+std::vector<double> most_by_gauges(const Hull& hull, const Eigen::Map<const RowMatrix>& vertices,
+                                   const Eigen::VectorXd& lengths, const WorkEnd& end) {
+  const PlanesAboutOrigin planes = outer_planes_about_interior(hull, {});
+  const double margin = margin_of(hull, planes);
+  const Eigen::Map<const RowMatrix> normals = as_rows(planes.normals, planes.rank);
+  const Eigen::Map<const Eigen::VectorXd> heights(planes.heights.data(), normals.rows());
+  std::vector<double> most(lengths.begin(), lengths.end());
+  for (std::size_t first = 0; first < most.size() && !end.is_here(); first += kVerticesAtATime) {
+    for_each_block(
+        std::min(kVerticesAtATime, most.size() - first), kVertexBlock, [&](std::size_t from, std::size_t to) {
+          const auto begin = static_cast<Index>(first + from), used = static_cast<Index>(to - from);
+          const Eigen::MatrixXd products = normals * vertices.middleRows(begin, used).transpose();
+          for (Index k = 0; k < used; ++k) {
+            const double gauge = (products.col(k).array() / heights.array()).maxCoeff();
+            double& of_vertex = most[static_cast<std::size_t>(begin + k)];
+            of_vertex *= (gauge > 1.0 ? 1.0 - 1.0 / gauge : 0.0) + margin;
+          }
+        });
   }
   return most;
 }
@@ -65,65 +83,62 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
                              std::uint64_t max_simplices, unsigned threads, const std::stop_token& stop,
                              double max_seconds) {
   if (hull.rank == 0) return {0.0, 0.0, ""};
-  const Clock::time_point start = Clock::now();
-  const auto is_late = [&] { return max_seconds > 0.0 && seconds_since(start) > max_seconds; };
-  const OuterDistance late{std::nullopt, 0.0, "it would take longer than the limit on seconds"};
+  const WorkEnd end(max_seconds, stop);
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   if (!find_open_direction(planes.normals, planes.rank).bounded)
     return {std::nullopt, 0.0, "the outer planes do not bound a region"};
   HullOptions options;
   options.wants_partial = false;
   options.limits.max_facets = max_simplices;
-  options.limits.max_seconds = max_seconds;
+  options.limits.max_seconds = end.seconds_left();
   options.threads = threads;
   options.stop = stop;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, 0.0, "interrupted"};
-  if (polytope.status == HullStatus::kTimeLimit) return late;
+  if (polytope.status == HullStatus::kTimeLimit)
+    return {std::nullopt, 0.0, "it would take longer than the limit on seconds"};
   if (polytope.status != HullStatus::kComplete || !polytope.bounded) {
     return {std::nullopt, 0.0,
             "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   }
-  const double rank = static_cast<double>(planes.rank);
-  const double heights =
-      static_cast<double>(polytope.vertices.size()) * static_cast<double>(hull.facet_count());
-  if (max_simplices > 0 && heights > kAffordableHeights)
-    return {std::nullopt, 0.0, "vertices times facets are too many to be compared"};
-  std::size_t most_nearest = kMostNearestPoints;
-  if (max_simplices > 0) {
-    const double affordable = kAffordableNearest / (rank * static_cast<double>(hull.vertices.size()));
-    most_nearest = std::min(most_nearest, static_cast<std::size_t>(std::max(affordable, 20.0)));
-  }
-  // What is below all outer planes is in the hull once it is scaled by 1 - margin about the interior point:
-  // then it is below all inner planes.
-  const PlanesAboutOrigin all = outer_planes_about_interior(hull, {});
-  double margin = 0x1p-52 * (rank + 4.0);  // rounding of a gauge
-  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
-    const FacetId facet{row};
-    margin = std::max(margin, (hull.outer_offset(facet) - hull.inner_offset(facet)) *
-                                  hull.input_per_length_unit(facet) / all.heights[row]);
-  }
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
-  std::optional<std::vector<double>> found = most_distances(vertices, all, is_late);
-  if (!found) return late;
-  std::vector<double>& most = *found;
-  for (std::size_t vertex = 0; vertex < most.size(); ++vertex)
-    most[vertex] += margin * vertices.row(static_cast<Index>(vertex)).norm();
+  const Eigen::VectorXd lengths = vertices.rowwise().norm();
+  const double vertex_work = static_cast<double>(planes.rank) * static_cast<double>(vertices.rows());
+  const double gauge_work = vertex_work * static_cast<double>(hull.facet_count());
+  const double search_work = vertex_work * kSearchRounds * static_cast<double>(hull.vertices.size());
+  if (max_simplices > 0 && std::min(gauge_work, search_work) > kAffordable)
+    return {std::nullopt, 0.0, "vertices are too many to be compared with the hull"};
+  // The gauges settle most vertices. Where facets are many it is less work to look for all nearest points.
+  std::vector<double> most(lengths.begin(), lengths.end());
+  if (gauge_work < search_work) most = most_by_gauges(hull, vertices, lengths, end);
   std::vector<std::uint32_t> order(most.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&most](std::uint32_t a, std::uint32_t b) {
     return most[a] != most[b] ? most[a] > most[b] : a < b;
   });
   const Eigen::MatrixXd columns = vertex_columns(hull, points);
+  const double size = std::sqrt(columns.colwise().squaredNorm().maxCoeff());
+  const std::size_t affordable =
+      max_simplices > 0 ? static_cast<std::size_t>(kAffordable / (search_work / vertex_work)) : order.size();
   OuterDistance result{0.0, 0.0, ""};
-  for (std::size_t k = 0; k < order.size() && most[order[k]] > *result.distance; ++k) {
-    if (k == most_nearest || is_late()) {
-      result.distance = most[order[k]];
+  std::vector<HullDistance> nearest(kSearchesAtATime);
+  for (std::size_t first = 0; first < order.size() && most[order[first]] > *result.distance;
+       first += kSearchesAtATime) {
+    if (first >= affordable || end.is_here()) {
+      result.distance = most[order[first]];
       break;
     }
-    const HullDistance nearest = hull_distance(columns, vertices.row(order[k]).transpose());
-    result.distance = std::max(*result.distance, nearest.upper);
-    result.lower = std::max(result.lower, nearest.lower);
+    const double near_enough = *result.distance;
+    const std::size_t used = std::min(kSearchesAtATime, order.size() - first);
+    for_each_block(used, 1, [&](std::size_t place, std::size_t) {
+      const Index vertex = order[first + place];
+      nearest[place] = hull_distance(columns, vertices.row(vertex).transpose(), {},
+                                     {.near_enough = near_enough, .size = std::max(size, lengths[vertex])});
+    });
+    for (std::size_t place = 0; place < used; ++place) {
+      result.distance = std::max(*result.distance, nearest[place].upper);
+      result.lower = std::max(result.lower, nearest[place].lower);
+    }
   }
   return result;
 }

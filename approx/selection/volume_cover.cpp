@@ -51,16 +51,26 @@ ExactFacets list_facets(const SimplicialComplex& complex, std::span<const double
   return facets;
 }
 
-/// Rows of `planes` to choose from, the largest facets first in coordinates where planes are spread evenly.
-std::vector<std::uint32_t> candidates_of(const ExactFacets& facets, const RowMatrix& even) {
+/// Facets, the largest first in coordinates where planes are spread evenly: the first `most` of them, or all.
+std::vector<std::uint32_t> candidates_of(const ExactFacets& facets, const Eigen::MatrixXd& even,
+                                         std::size_t most) {
   std::vector<double> areas(facets.volumes.size());
-  for (std::size_t row = 0; row < areas.size(); ++row)
-    areas[row] = facets.volumes[row] * even.row(static_cast<Index>(row)).norm();
+  for_each_block(areas.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    const RowMatrix planes =
+        facets.planes.middleRows(static_cast<Index>(begin), static_cast<Index>(end - begin)) * even;
+    for (std::size_t row = begin; row != end; ++row)
+      areas[row] = facets.volumes[row] * planes.row(static_cast<Index>(row - begin)).norm();
+  });
   std::vector<std::uint32_t> ids(areas.size());
   std::iota(ids.begin(), ids.end(), 0U);
-  std::sort(ids.begin(), ids.end(), [&areas](std::uint32_t a, std::uint32_t b) {
+  const auto is_larger = [&areas](std::uint32_t a, std::uint32_t b) {
     return areas[a] != areas[b] ? areas[a] > areas[b] : a < b;
-  });
+  };
+  if (ids.size() > most) {
+    std::nth_element(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(most), ids.end(), is_larger);
+    ids.resize(most);
+  }
+  std::sort(ids.begin(), ids.end(), is_larger);
   return ids;
 }
 
@@ -76,49 +86,80 @@ std::span<const double> values_of(const RowMatrix& rows) {
 
 /// Chosen rows of facets.planes.
 RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count, const WorkEnd& end) {
-  const RowMatrix even = evenly_spread(facets.planes);
-  std::vector<std::uint32_t> ids = candidates_of(facets, even);
-  if (ids.size() > kMostCandidates) {
-    const std::span<const std::uint32_t> few(ids.data(), kMostCandidates);
-    if (find_open_direction(values_of(rows_of(even, few)), static_cast<std::size_t>(even.cols())).bounded)
-      ids.resize(kMostCandidates);
+  const Eigen::MatrixXd even = even_spread_map(facets.planes);
+  const auto rank = static_cast<std::size_t>(even.cols());
+  std::vector<std::uint32_t> ids = candidates_of(facets, even, kMostCandidates);
+  RowMatrix candidates = rows_of(facets.planes, ids) * even;
+  if (ids.size() < facets.volumes.size() && !find_open_direction(values_of(candidates), rank).bounded) {
+    ids = candidates_of(facets, even, facets.volumes.size());
+    candidates = rows_of(facets.planes, ids) * even;
   }
-  const RowMatrix candidates = rows_of(even, ids);
-  const std::vector<std::uint32_t> start =
-      complete_to_bounded(values_of(candidates), static_cast<std::size_t>(even.cols()), {});
+  const std::vector<std::uint32_t> start = complete_to_bounded(values_of(candidates), rank, {});
   std::vector<std::uint32_t> chosen = choose_by_rays(candidates, start, count, end);
   for (std::uint32_t& row : chosen) row = ids[row];
   std::sort(chosen.begin(), chosen.end());
   return rows_of(facets.planes, chosen);
 }
 
+/// The points that are vertices of simplices, numbered anew.
+struct Corners {
+  std::vector<std::uint32_t> place;  ///< of each point; kNone: no vertex
+  RowMatrix points;
+};
+
+Corners corners_of(const SimplicialComplex& complex, const double* points) {
+  Corners corners;
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    for (const PointId id : complex.vertices(SimplexId{row})) {
+      if (id.value >= corners.place.size()) corners.place.resize(std::size_t{id.value} + 1, kNone);
+      if (corners.place[id.value] != kNone) continue;
+      corners.place[id.value] = static_cast<std::uint32_t>(ids.size());
+      ids.push_back(id.value);
+    }
+  }
+  const auto rank = static_cast<Index>(complex.rank);
+  corners.points.resize(static_cast<Index>(ids.size()), rank);
+  for (std::size_t place = 0; place < ids.size(); ++place) {
+    corners.points.row(static_cast<Index>(place)) =
+        Eigen::Map<const Eigen::RowVectorXd>(points + std::size_t{ids[place]} * complex.rank, rank);
+  }
+  return corners;
+}
+
 /// For each simplex the plane below which its lowest vertex is least deep.
+///
+/// Cost  a comparison for each plane and each vertex of a simplex; depths are found once for each vertex.
 std::vector<std::uint32_t> assign_simplices(const SimplicialComplex& complex, const double* points,
                                             const RowMatrix& planes,
                                             std::span<const double> gradient_factor) {
+  constexpr Index kPlanesAtATime = 64;
   const Index rank = planes.cols();
+  const Corners corners = corners_of(complex, points);
   const Eigen::Map<const RowMatrix> factor(gradient_factor.data(), rank, rank);
-  // Distances in length units: a gauge over the length of its gradient.
+  // Depths in length units: a gauge over the length of its gradient.
   const Eigen::VectorXd lengths = (planes * factor.transpose()).rowwise().norm();
   std::vector<std::uint32_t> plane_of(complex.row_count);
-  for_each_block(complex.row_count, 64, [&](std::size_t begin, std::size_t end) {
-    Eigen::MatrixXd vertices(rank, rank), gauges;
-    for (std::size_t row = begin; row != end; ++row) {
-      Index column = 0;
-      for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
-        vertices.col(column++) =
-            Eigen::Map<const Eigen::VectorXd>(points + std::size_t{id.value} * complex.rank, rank);
+  std::vector<double> least(complex.row_count, HUGE_VAL);
+  Eigen::MatrixXd depths;  // of a corner, one after the other
+  for (Index first = 0; first < planes.rows(); first += kPlanesAtATime) {
+    const Index used = std::min(kPlanesAtATime, planes.rows() - first);
+    depths.noalias() = planes.middleRows(first, used) * corners.points.transpose();
+    depths = lengths.segment(first, used).cwiseInverse().asDiagonal() * (1.0 - depths.array()).matrix();
+    for_each_block(complex.row_count, 1024, [&](std::size_t begin, std::size_t end) {
+      Eigen::ArrayXd deepest(used);
+      for (std::size_t row = begin; row != end; ++row) {
+        deepest.setConstant(-HUGE_VAL);
+        for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)}))
+          deepest = deepest.max(depths.col(corners.place[id.value]).array());
+        Index plane = 0;
+        const double depth = deepest.minCoeff(&plane);
+        if (depth >= least[row]) continue;
+        least[row] = depth;
+        plane_of[row] = static_cast<std::uint32_t>(first + plane);
       }
-      gauges.noalias() = planes * vertices;
-      double least = HUGE_VAL;
-      for (Index plane = 0; plane < planes.rows(); ++plane) {
-        const double depth = (1.0 - gauges.row(plane).minCoeff()) / lengths[plane];
-        if (depth >= least) continue;
-        least = depth;
-        plane_of[row] = static_cast<std::uint32_t>(plane);
-      }
-    }
-  });
+    });
+  }
   return plane_of;
 }
 

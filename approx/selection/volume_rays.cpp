@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "approx/selection/ray_gains_kernel.h"
+#include "core/blocks.h"
 #include "core/ids.h"
 #include "core/portable_random.h"
 
@@ -20,8 +22,8 @@ constexpr std::size_t kFewestRays = 4'000, kMostRays = 60'000;
 constexpr std::size_t kTrials = 2;
 /// An exchange must gain this share of what it costs, or rounding could go on for ever.
 constexpr double kLeastGain = 1e-6;
-/// Planes times rays whose products are held at once.
-constexpr Index kRayBlock = 256;
+/// Rays whose changes are added at once, between two looks at the clock.
+constexpr std::size_t kRayBlock = 256;
 
 /// For each ray the chosen plane that it meets first, and the second one.
 class RayChoice {
@@ -35,6 +37,13 @@ class RayChoice {
         first_plane_(ray_count, kNone),
         second_plane_(ray_count, kNone),
         is_chosen_(static_cast<std::size_t>(planes.rows()), false) {
+    const auto rank = static_cast<std::size_t>(planes.cols());
+    blocks_.resize((is_chosen_.size() + kGainBlock - 1) / kGainBlock * kGainBlock * rank, 0.0);
+    for (std::size_t plane = 0; plane < is_chosen_.size(); ++plane) {
+      double* const block = blocks_.data() + plane / kGainBlock * kGainBlock * rank + plane % kGainBlock;
+      for (std::size_t k = 0; k < rank; ++k)
+        block[k * kGainBlock] = planes(static_cast<Index>(plane), static_cast<Index>(k));
+    }
     PortableRandom random(kRaySeed);
     for (Index ray = 0; ray < directions_.cols(); ++ray) {
       for (Index k = 0; k < directions_.rows(); ++k) directions_(k, ray) = random.normal();
@@ -46,7 +55,7 @@ class RayChoice {
 
   /// From now on `gains` are known for all planes, whatever is added and removed.
   void look_at_all() {
-    gains_.assign(is_chosen_.size(), 0.0);
+    gains_.assign(blocks_.size() / static_cast<std::size_t>(planes_.cols()), 0.0);
     std::vector<RayChange> all;
     for (std::size_t ray = 0; ray < first_.size(); ++ray) all.push_back({ray, HUGE_VAL});
     update_gains(all);
@@ -58,7 +67,7 @@ class RayChoice {
       const auto first = std::find(is_chosen_.begin(), is_chosen_.end(), false);
       return static_cast<std::uint32_t>(first - is_chosen_.begin());
     }
-    for (std::uint32_t plane = 0; plane < gains_.size(); ++plane) {
+    for (std::uint32_t plane = 0; plane < is_chosen_.size(); ++plane) {
       if (!is_chosen_[plane] && (best == kNone || gains_[plane] > gains_[best])) best = plane;
     }
     return best;
@@ -90,14 +99,25 @@ class RayChoice {
     chosen_.erase(std::find(chosen_.begin(), chosen_.end(), plane));
     is_chosen_[plane] = false;
     std::vector<RayChange> changes;
+    std::vector<std::size_t> rays;
     for (std::size_t ray = 0; ray < first_.size(); ++ray) {
       if (first_plane_[ray] != plane && second_plane_[ray] != plane) continue;
       if (first_plane_[ray] == plane && !gains_.empty()) changes.push_back({ray, first_[ray]});
-      first_[ray] = second_[ray] = 0.0;
-      first_plane_[ray] = second_plane_[ray] = kNone;
-      for (const std::uint32_t other : chosen_)
-        meet(ray, other, planes_.row(other).dot(directions_.col(static_cast<Index>(ray))));
+      rays.push_back(ray);
     }
+    Eigen::MatrixXd chosen(static_cast<Index>(chosen_.size()), planes_.cols());
+    for (std::size_t k = 0; k < chosen_.size(); ++k)
+      chosen.row(static_cast<Index>(k)) = planes_.row(chosen_[k]);
+    for_each_block(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
+      Eigen::VectorXd slopes(chosen.rows());
+      for (std::size_t place = begin; place < end; ++place) {
+        const std::size_t ray = rays[place];
+        first_[ray] = second_[ray] = 0.0;
+        first_plane_[ray] = second_plane_[ray] = kNone;
+        slopes.noalias() = chosen * directions_.col(static_cast<Index>(ray));
+        for (std::size_t k = 0; k < chosen_.size(); ++k) meet(ray, chosen_[k], slopes[static_cast<Index>(k)]);
+      }
+    });
     update_gains(changes);
   }
 
@@ -118,28 +138,28 @@ class RayChoice {
   }
 
   void update_gains(const std::vector<RayChange>& changes) {
-    Eigen::MatrixXd directions, products;
+    const auto rank = static_cast<std::size_t>(planes_.cols());
+    RayChanges block;
     // What is not up to date at the end is not looked at any more.
     for (std::size_t begin = 0; begin < changes.size() && !end_.is_here(); begin += kRayBlock) {
-      const auto used = static_cast<Index>(std::min<std::size_t>(kRayBlock, changes.size() - begin));
-      directions.resize(planes_.cols(), used);
-      for (Index k = 0; k < used; ++k)
-        directions.col(k) =
-            directions_.col(static_cast<Index>(changes[begin + static_cast<std::size_t>(k)].ray));
-      products.noalias() = planes_ * directions;
-      for (Index k = 0; k < used; ++k) {
-        const RayChange& change = changes[begin + static_cast<std::size_t>(k)];
-        const double now = first_[change.ray], lower = std::min(now, change.old_first);
-        const double upper = std::max(now, change.old_first);
-        const double shorter = content(upper), difference = content(now) - content(change.old_first);
-        const double sign = now < change.old_first ? 1.0 : -1.0;
-        for (Index plane = 0; plane < products.rows(); ++plane) {
-          const double slope = products(plane, k);
-          if (slope <= lower) continue;
-          gains_[static_cast<std::size_t>(plane)] +=
-              slope >= upper ? difference : difference - sign * (content(slope) - shorter);
-        }
+      block.clear();
+      for (std::size_t k = begin; k < std::min(begin + kRayBlock, changes.size()); ++k) {
+        const RayChange& change = changes[k];
+        const double now = first_[change.ray], upper = std::max(now, change.old_first);
+        const auto direction = directions_.col(static_cast<Index>(change.ray));
+        block.directions.insert(block.directions.end(), direction.begin(), direction.end());
+        block.lower.push_back(std::min(now, change.old_first));
+        block.upper.push_back(upper);
+        block.difference.push_back(content(now) - content(change.old_first));
+        block.sign.push_back(now < change.old_first ? 1.0 : -1.0);
+        block.shorter.push_back(content(upper));
       }
+      for_each_block(gains_.size() / kGainBlock, 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t of_planes = first; of_planes < last; ++of_planes) {
+          add_ray_gains(blocks_.data() + of_planes * kGainBlock * rank, rank, block,
+                        gains_.data() + of_planes * kGainBlock);
+        }
+      });
     }
   }
 
@@ -163,7 +183,8 @@ class RayChoice {
   Eigen::RowVectorXd slope_;    // of one plane along each ray
   std::vector<double> first_, second_;
   std::vector<std::uint32_t> first_plane_, second_plane_;
-  std::vector<double> gains_;  // of all planes; empty: not known
+  std::vector<double> blocks_;  // the planes as add_ray_gains wants them
+  std::vector<double> gains_;   // of all planes, to whole blocks; empty: not known
   std::vector<bool> is_chosen_;
   std::vector<std::uint32_t> chosen_;
 };
@@ -195,11 +216,21 @@ void exchange(RayChoice& choice, const std::vector<std::uint32_t>& fixed, std::s
 
 }  // namespace
 
-RowMatrix evenly_spread(RowMatrix planes) {
-  planes = (planes.array().rowwise() / planes.cwiseAbs().colwise().maxCoeff().array()).eval();
-  const Eigen::MatrixXd spread = planes.transpose() * planes / static_cast<double>(planes.rows());
+Eigen::MatrixXd even_spread_map(const RowMatrix& planes) {
+  constexpr Index kRowsAtATime = 1024;  // the same sums whatever the machine
+  const Index rank = planes.cols();
+  const Eigen::RowVectorXd scale = planes.cwiseAbs().colwise().maxCoeff().cwiseInverse();
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(rank, rank);
+  RowMatrix scaled;
+  for (Index begin = 0; begin < planes.rows(); begin += kRowsAtATime) {
+    scaled = planes.middleRows(begin, std::min(kRowsAtATime, planes.rows() - begin)) * scale.asDiagonal();
+    spread.noalias() += scaled.transpose() * scaled;
+  }
+  spread /= static_cast<double>(planes.rows());
   const Eigen::MatrixXd lower = Eigen::LLT<Eigen::MatrixXd>(spread).matrixL();
-  return lower.triangularView<Eigen::Lower>().solve(planes.transpose()).transpose();
+  const Eigen::MatrixXd inverse =
+      lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(rank, rank));
+  return scale.transpose().asDiagonal() * inverse.transpose();
 }
 
 std::vector<std::uint32_t> choose_by_rays(const RowMatrix& planes, const std::vector<std::uint32_t>& start,

@@ -2,6 +2,7 @@
 // polytope is the hull itself, and only what lies between the two is worth looking at.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -10,9 +11,9 @@
 
 namespace ndhull {
 
-/// The planes a . y <= 1, rows of `planes`, in coordinates in which the rows are spread evenly: their second
-/// moments are the identity. Ratios of volumes are the same in all coordinates. The rows span the space.
-RowMatrix evenly_spread(RowMatrix planes);
+/// The map to coordinates in which the planes a . y <= 1, rows of `planes`, are spread evenly: the second moments of
+/// planes * map are the identity. Ratios of volumes are the same in all coordinates. The rows span the space.
+Eigen::MatrixXd even_spread_map(const RowMatrix& planes);
 
 /// Chooses `count` of the planes a . y <= 1, rows of `planes`, `start` among them where it can be.
 ///

@@ -12,6 +12,7 @@
 #include "approx/polytope/outer_volume.h"
 #include "approx/selection/plane_candidates.h"
 #include "approx/selection/volume_rays.h"
+#include "core/blocks.h"
 #include "core/error.h"
 #include "core/portable_random.h"
 
@@ -165,11 +166,24 @@ class VolumeChoice {
     for (Index row = 0; row < rows.rows(); ++row) {
       rows.row(row) /= planes.heights[static_cast<std::size_t>(row)];
     }
-    return evenly_spread(rows);
+    return rows * even_spread_map(rows);
   }
 
   static Index points_above(const RowMatrix& points, const Eigen::RowVectorXd& plane) {
     return ((points * plane.transpose()).array() > 1.0).count();
+  }
+
+  /// Of all candidates.
+  std::vector<Index> points_above_each(const RowMatrix& points) const {
+    constexpr std::size_t kPlanesAtATime = 32;
+    std::vector<Index> above(facets_.size());
+    for_each_block(above.size(), kPlanesAtATime, [&](std::size_t begin, std::size_t end) {
+      const Eigen::MatrixXd products =
+          points * planes_.middleRows(static_cast<Index>(begin), static_cast<Index>(end - begin)).transpose();
+      for (std::size_t row = begin; row < end; ++row)
+        above[row] = (products.col(static_cast<Index>(row - begin)).array() > 1.0).count();
+    });
+    return above;
   }
 
   Ids add_planes(Ids chosen) {
@@ -221,14 +235,11 @@ class VolumeChoice {
       if (!is_bounded(planes)) continue;
       EvenPoints even(kExchangePoints, planes_.cols());
       even.spread(planes);
+      const std::vector<Index> above = points_above_each(even.points());
       std::uint32_t best = chosen[place];
-      Index most = points_above(even.points(), planes_.row(best));
       for (std::uint32_t row = 0; row < facets_.size(); ++row) {
-        if (std::find(chosen.begin(), chosen.end(), row) != chosen.end()) continue;
-        const Index above = points_above(even.points(), planes_.row(row));
-        if (above <= most) continue;
-        most = above;
-        best = row;
+        if (above[row] > above[best] && std::find(others.begin(), others.end(), row) == others.end())
+          best = row;
       }
       chosen[place] = best;
     }
