@@ -33,8 +33,8 @@ namespace ndhull {
 struct Limits {
   std::uint64_t max_facets = 0;  ///< simplices of the growth complex
   double max_seconds = 0.0;      ///< wall clock of the whole call: growth ends in time for the rest
-  /// What the caller does with each facet within max_seconds after the call, as a share of what growth took for it:
-  /// growth ends in time for that as well. Not of approximate hulls, whose facets are few.
+  /// What the caller does with each facet within max_seconds after the call, as a share of what growth took
+  /// for it: growth ends in time for that as well. Not of approximate hulls, whose facets are few.
   double share_afterwards = 0.0;
   std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
   /// What the machine has for them: ends growth where max_memory_bytes is 0, and changes nothing before.
@@ -182,8 +182,8 @@ class Hull {
   double inner_offset(FacetId facet) const { return inner_[facet.value]; }  ///< <= 0, length unit
   /// Input units, >= 0. Of a merged facet: of the projection of its simplices onto its plane, less what
   /// faces the other way.
-  /// Cost  the first call for an approximate hull makes the areas of all facets (approx/facets/later_areas.h);
-  ///       several threads may make it.
+  /// Cost  the first call for an approximate hull makes the areas of all facets
+  ///       (approx/facets/later_areas.h); several threads may make it.
   double area_of(FacetId facet) const { return areas()[facet.value]; }
   /// Input units of distance along the facet's normal for one length unit: 1 without unit_cube.
   double input_per_length_unit(FacetId facet) const;

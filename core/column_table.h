@@ -35,7 +35,8 @@ class ColumnTable {
     double product = 0.0;
   };
   Best largest_product(std::span<const double> multipliers) const;
-  /// Of the columns from `first` to `last` (the end not included) alone, and those that share a block with them.
+  /// Of the columns from `first` to `last` (the end not included) alone, and those that share a block with
+  /// them.
   Best largest_product(std::span<const double> multipliers, std::size_t first, std::size_t last) const;
 
   /// The best column for `query`; its entries stay valid until the next call.

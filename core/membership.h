@@ -44,7 +44,8 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
 /// useful  slack in a proof that is worth looking for a better simplex. [ratio]
 /// Cost    a few steps of rank plane evaluations and one linear system of size rank for each query. Where
 ///         walking ends in a proof with slack all simplices are tried (counted in `searched_all`), unless
-///         that would be more than `most_products`, one for each coordinate: then the proofs stay as they are.
+///         that would be more than `most_products`, one for each coordinate: then the proofs stay as they
+///         are.
 std::vector<LocatedPoint> prove_inside(const SimplicialComplex& complex, const double* points,
                                        const HullBall& ball, std::span<const PointId> queries, double useful,
                                        std::uint64_t& searched_all, double most_products = kSearchProducts);

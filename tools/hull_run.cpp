@@ -128,8 +128,8 @@ Limits limits_left(Limits limits, Clock::time_point start) {
   return limits;
 }
 
-/// What is done with each facet of an exact hull once there are facets, for Limits::share_afterwards. Measured in 5-d
-/// to 11-d.
+/// What is done with each facet of an exact hull once there are facets, for Limits::share_afterwards.
+/// Measured in 5-d to 11-d.
 double share_afterwards(const HullRequest& request) {
   constexpr double kText = 8.0, kBytes = 1.5, kBounding = 2.0;
   if (!request.options.accuracy.is_exact()) return 0.0;

@@ -121,8 +121,8 @@ class NormalTable {
   static constexpr std::size_t kPart = 4096;  // columns
   static constexpr std::size_t kRowsAtATime = 256;
 
-  /// The best column of the first part, from `part` on, that has one that improves (partial pricing); the best of
-  /// all where none has.
+  /// The best column of the first part, from `part` on, that has one that improves (partial pricing); the
+  /// best of all where none has.
   std::optional<LpColumn> price(const LpQuery& query, std::size_t& part) {
     constexpr double kRounding = 1e-9;  // of products of unit rows
     if (count() == 0) return std::nullopt;
@@ -218,7 +218,8 @@ class Completion {
   std::vector<std::uint32_t> selected_;
 };
 
-/// The map that spreads the normals evenly; of many an even part tells. Nothing: all are orthogonal to something.
+/// The map that spreads the normals evenly; of many an even part tells. Nothing: all are orthogonal to
+/// something.
 std::optional<MatrixXd> even_map(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions) {
   constexpr Index kEnough = 32'768;
   const auto of_each = [&](Index step) -> std::optional<MatrixXd> {

@@ -81,7 +81,8 @@ class DistanceChoice {
   }
 
  private:
-  /// Distance of the furthest vertex from the hull, where that is known, then its height; infinite without one.
+  /// Distance of the furthest vertex from the hull, where that is known, then its height; infinite without
+  /// one.
   using Reach = std::pair<double, double>;
 
   Reach reach(const Ids& ids) const {
@@ -169,8 +170,8 @@ class DistanceChoice {
     return spikes;
   }
 
-  /// The first of `spikes`, or one that is at least so high. No vertex is further above a plane than it is away
-  /// from the origin, so the furthest ones are looked at, and the rest where that does not settle it.
+  /// The first of `spikes`, or one that is at least so high. No vertex is further above a plane than it is
+  /// away from the origin, so the furthest ones are looked at, and the rest where that does not settle it.
   std::optional<Spike> furthest(const Ids& ids, double enough = HUGE_VAL) const {
     const std::optional<PlanePolytope> polytope = polytope_of(ids);
     if (!polytope) return std::nullopt;

@@ -44,8 +44,8 @@ struct FacetSelection {
 /// Ties      of equal area, or equally many simplices, the larger area and then the lower id is kept.
 /// Added     as few as complete_to_bounded finds (approx/geometry/boundedness.h), each of which is needed.
 ///           Facets of a hull always can bound a region. A hull without facets is a point, and bounded.
-/// End       of choosing for volume or distance, which can take many seconds: facets still missing then are the
-///           largest. All else takes little.
+/// End       of choosing for volume or distance, which can take many seconds: facets still missing then are
+///           the largest. All else takes little.
 /// points    those that the hull was made from: a choice for distance compares distances with them.
 /// Throws    Error kUsage as choose_for_volume and choose_for_distance do.
 /// Cost      O(facets) and a sort of those kept; a few linear programs over the planes selected, with

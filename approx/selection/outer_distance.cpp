@@ -17,10 +17,11 @@ namespace {
 
 using Eigen::Index;
 
-// Where the outer polytope's size is limited so is what comes after: multiplications, some tenths of a second.
+// Where the outer polytope's size is limited so is what comes after: multiplications, some tenths of a
+// second.
 constexpr double kAffordable = 5e8;
-/// Rounds of a search for a nearest point, each a product with all vertices of the hull: what most take that end
-/// early.
+/// Rounds of a search for a nearest point, each a product with all vertices of the hull: what most take that
+/// end early.
 constexpr double kSearchRounds = 8.0;
 
 /// Vertices whose products with all planes are held at once.
@@ -41,8 +42,8 @@ Eigen::MatrixXd vertex_columns(const Hull& hull, const PointView& points) {
   return columns;
 }
 
-/// What is below all outer planes is in the hull once it is scaled by 1 - margin about the interior point: then it
-/// is below all inner planes.
+/// What is below all outer planes is in the hull once it is scaled by 1 - margin about the interior point:
+/// then it is below all inner planes.
 double margin_of(const Hull& hull, const PlanesAboutOrigin& planes) {
   double margin = 0x1p-52 * (static_cast<double>(planes.rank) + 4.0);  // rounding of a gauge
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
@@ -53,8 +54,8 @@ double margin_of(const Hull& hull, const PlanesAboutOrigin& planes) {
   return margin;
 }
 
-/// No vertex is further from the hull than this: on the ray through it the hull ends where a facet's plane does.
-/// What time was too short for is as far as from the interior point.
+/// No vertex is further from the hull than this: on the ray through it the hull ends where a facet's plane
+/// does. What time was too short for is as far as from the interior point.
 std::vector<double> most_by_gauges(const Hull& hull, const Eigen::Map<const RowMatrix>& vertices,
                                    const Eigen::VectorXd& lengths, const WorkEnd& end) {
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, {});

@@ -27,14 +27,15 @@ struct OuterDistance {
 ///
 /// points   those that the hull was made from.
 /// Method   A vertex v is at most |v| away, and of gauge g at most |v| (1 - 1/g). In that order the nearest points of
-///          the hull are looked for (approx/geometry/hull_distance.h), of each until it is no further than the
-///          furthest so far, until no other vertex can be further. Gauges are products with all facets: found where
-///          these are fewer than eight times the hull's vertices. When time is up, or what max_simplices allows, the
-///          bound of the rest is taken. Rounding of the vertices themselves is not part of the bounds.
+///          the hull are looked for (approx/geometry/hull_distance.h), of each until it is no further than
+///          the furthest so far, until no other vertex can be further. Gauges are products with all facets:
+///          found where these are fewer than eight times the hull's vertices. When time is up, or what
+///          max_simplices allows, the bound of the rest is taken. Rounding of the vertices themselves is not
+///          part of the bounds.
 /// Returns  no distance where outer_volume has no volume or would not in max_seconds (0: no limit), and with
 ///          max_simplices when that would take more than 5e8 multiplications.
-/// Cost     as outer_volume, and for each of its vertices rank x the hull's facets or eight times its vertices,
-///          whichever is less, multiplications.
+/// Cost     as outer_volume, and for each of its vertices rank x the hull's facets or eight times its
+///          vertices, whichever is less, multiplications.
 OuterDistance outer_distance(const Hull& hull, const PointView& points, std::span<const FacetId> facets,
                              std::uint64_t max_simplices, unsigned threads = 0,
                              const std::stop_token& stop = {}, double max_seconds = 0.0);
@@ -46,14 +47,15 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
 /// Method   Planes are added to rank + 1 or more that bound a region: the plane that the furthest vertex is
 ///          furthest above, several at once while many are missing. Up to 100 planes are exchanged one by one
 ///          afterwards while that brings the furthest vertex nearer. So are those that enclose little
-///          (approx/selection/volume_rays.h). These, those, or the `count` largest facets: whose furthest vertex is
-///          nearest. Heights stand for distances, in the last comparison only without `points`: they are equal where
-///          the nearest point is inside a facet, and below them elsewhere.
+///          (approx/selection/volume_rays.h). These, those, or the `count` largest facets: whose furthest
+///          vertex is nearest. Heights stand for distances, in the last comparison only without `points`:
+///          they are equal where the nearest point is inside a facet, and below them elsewhere.
 /// Result   ascending. More than `count` where so few bound nothing. Polytopes of more than 200,000 simplices
 ///          are not looked at: the largest facets make up the number then, and when `end` has come.
 /// Throws   Error kUsage when count <= rank: so few planes bound nothing.
 /// Cost     a hull of the chosen dual points for each round, and for each exchange two; candidates (the
-///          20,000 of largest area) x vertices x rank multiplications, in exchanges of the furthest vertices alone.
+///          20,000 of largest area) x vertices x rank multiplications, in exchanges of the furthest vertices
+///          alone.
 std::vector<FacetId> choose_for_distance(const Hull& hull, std::size_t count, const WorkEnd& end = {},
                                          const PointView* points = nullptr);
 

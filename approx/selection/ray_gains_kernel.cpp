@@ -1,5 +1,5 @@
-// Four vectors of planes at once hide the latency of the sums. Most planes are behind the first plane of a ray: that
-// is known from the four products, and nothing else is done then.
+// Four vectors of planes at once hide the latency of the sums. Most planes are behind the first plane of a
+// ray: that is known from the four products, and nothing else is done then.
 
 #include "approx/selection/ray_gains_kernel.h"
 

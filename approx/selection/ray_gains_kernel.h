@@ -12,9 +12,9 @@ inline constexpr std::size_t kGainBlock = 32;
 
 /// Rays whose first plane has become another one: one number each, of which `directions` has rank.
 ///
-/// A plane is met at 1 / slope, slope = a . direction. Not above `lower` it is behind the first plane before and
-/// after, and gains nothing; from `upper` on it was and is the first, and its gain changes by `difference`; between
-/// them by difference - sign (slope^-rank - shorter).
+/// A plane is met at 1 / slope, slope = a . direction. Not above `lower` it is behind the first plane before
+/// and after, and gains nothing; from `upper` on it was and is the first, and its gain changes by
+/// `difference`; between them by difference - sign (slope^-rank - shorter).
 struct RayChanges {
   std::vector<double> directions, lower, upper, difference, sign, shorter;
 
@@ -25,8 +25,8 @@ struct RayChanges {
   }
 };
 
-/// Adds the changes, in their order, to the gains of kGainBlock planes. The same bits on all machines: products are
-/// not fused with sums.
+/// Adds the changes, in their order, to the gains of kGainBlock planes. The same bits on all machines:
+/// products are not fused with sums.
 ///
 /// Shapes  planes: rank x kGainBlock, one coordinate of all planes after the other. gains: kGainBlock.
 void add_ray_gains(const double* planes, std::size_t rank, const RayChanges& changes, double* gains);

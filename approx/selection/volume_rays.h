@@ -11,8 +11,9 @@
 
 namespace ndhull {
 
-/// The map to coordinates in which the planes a . y <= 1, rows of `planes`, are spread evenly: the second moments of
-/// planes * map are the identity. Ratios of volumes are the same in all coordinates. The rows span the space.
+/// The map to coordinates in which the planes a . y <= 1, rows of `planes`, are spread evenly: the second
+/// moments of planes * map are the identity. Ratios of volumes are the same in all coordinates. The rows span
+/// the space.
 Eigen::MatrixXd even_spread_map(const RowMatrix& planes);
 
 /// Chooses `count` of the planes a . y <= 1, rows of `planes`, `start` among them where it can be.

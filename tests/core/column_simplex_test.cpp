@@ -298,6 +298,17 @@ TEST(ColumnTableExample, FindsTheFirstOfTheLargestProducts) {
       EXPECT_EQ(best.product, *expected);
       EXPECT_EQ(best.column, static_cast<std::size_t>(expected - products.begin()))
           << count << " columns of height " << height;
+      // Of the columns from a block's first to the end.
+      const std::size_t first = count / 64 * 32;
+      const ColumnTable::Best part = table.largest_product(multipliers, first, count);
+      const auto of_part =
+          std::max_element(products.begin() + static_cast<std::ptrdiff_t>(first), products.end());
+      EXPECT_EQ(part.product, *of_part);
+      EXPECT_EQ(part.column, static_cast<std::size_t>(of_part - products.begin()));
+      table.set_cost(count - 1, 1000.0);
+      multipliers.back() = 1.0;
+      EXPECT_EQ(table.cost(count - 1), 1000.0);
+      EXPECT_EQ(table.largest_product(multipliers).column, count - 1);
     }
   }
 }

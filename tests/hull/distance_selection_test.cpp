@@ -1,9 +1,14 @@
 // Outer planes chosen for the vertex that is furthest from the hull, and how far it is.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "approx/geometry/hull_distance.h"
+#include "approx/polytope/outer_volume.h"
+#include "approx/polytope/plane_polytope.h"
 #include "approx/selection/facet_selection.h"
 #include "approx/selection/outer_distance.h"
 #include "core/error.h"
@@ -64,6 +69,54 @@ TEST(OuterDistance, AnOpenSelectionHasNone) {
   const Hull hull = hull_of(points);
   const std::vector<FacetId> two{FacetId{0}, FacetId{1}};
   EXPECT_FALSE(outer_distance(hull, points.view(), two, 0, 1).distance);
+}
+
+// Few of very many facets, whose vertices are all looked at, and many of few vertices, whose gauges come
+// first: both are the distance of the furthest vertex, looked for one by one.
+TEST(OuterDistanceOracle, IsThatOfTheFurthestVertex) {
+  std::size_t searched = 0, by_gauges = 0;
+  for (const auto& [points, count] : {std::pair{rbox("300 s D5 t1"), std::size_t{9}},
+                                      {rbox("300 s D5 t2"), std::size_t{14}},
+                                      {rbox("200 s D3 t3"), std::size_t{30}},
+                                      {rbox("50 s D4 t4"), std::size_t{12}}}) {
+    const Hull hull = hull_of(points);
+    ++(hull.facet_count() > 8 * hull.vertices.size() ? searched : by_gauges);
+    const std::size_t rank = hull.rank;
+    const FacetSelection chosen = select_facets(hull, {.largest = count, .bounded = true});
+    const PlanesAboutOrigin planes = outer_planes_about_interior(hull, chosen.facets);
+    const PlanePolytope polytope = intersect_about_origin(planes, {});
+    ASSERT_TRUE(polytope.bounded);
+    Eigen::MatrixXd corners(static_cast<Eigen::Index>(rank), static_cast<Eigen::Index>(hull.vertices.size()));
+    for (std::size_t k = 0; k < hull.vertices.size(); ++k) {
+      for (std::size_t j = 0; j < rank; ++j)
+        corners(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) =
+            points.view().at(hull.vertices[k].value, j) - hull.interior_point[j];
+    }
+    double furthest = 0.0;
+    for (std::size_t vertex = 0; vertex < polytope.vertex_count(rank); ++vertex) {
+      const Eigen::Map<const Eigen::VectorXd> at(polytope.vertices.data() + vertex * rank,
+                                                 static_cast<Eigen::Index>(rank));
+      furthest = std::max(furthest, hull_distance(corners, at).upper);
+    }
+    const double found = reach(hull, points, chosen.facets);
+    EXPECT_GE(found, furthest * (1.0 - 1e-12));
+    EXPECT_LE(found, furthest * (1.0 + 1e-9));
+  }
+  EXPECT_GE(searched, 1U);
+  EXPECT_GE(by_gauges, 1U);
+}
+
+TEST(DistanceSelectionLaw, WithThePointsItReachesNoFurther) {
+  for (const char* options : {"100 s D5 t1", "60 D6 t2", "40 s D7 t3"}) {
+    SCOPED_TRACE(options);
+    const PointSet points = rbox(options);
+    const PointView view = points.view();
+    const Hull hull = hull_of(points);
+    for (const std::size_t count : {10U, 20U}) {
+      EXPECT_LE(reach(hull, points, choose_for_distance(hull, count, {}, &view)),
+                reach(hull, points, choose_for_distance(hull, count)) * (1.0 + 1e-12));
+    }
+  }
 }
 
 TEST(DistanceSelectionLaw, TwentyPlanesReachNoFurtherThanTheTwentyLargestAndThoseThatCloseThem) {

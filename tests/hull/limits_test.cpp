@@ -69,6 +69,18 @@ TEST(LimitsExample, TimeEndsGrowth) {
   expect_certified_with(HullStatus::kTimeLimit, set, {.limits = {.max_seconds = 0.05}});
 }
 
+// What each facet will take afterwards is foreseen: so much of it leaves no time to grow at all.
+TEST(LimitsExample, GrowthEndsInTimeForWhatComesAfterTheCall) {
+  const PointSet set = sphere(200, 6);
+  const Limits patient{.max_seconds = 600.0};
+  EXPECT_EQ(hull_of(set, {.limits = patient}).status, HullStatus::kComplete);
+  Limits busy = patient;
+  busy.share_afterwards = 1e12;
+  expect_certified_with(HullStatus::kTimeLimit, set, {.limits = busy});
+  busy.max_seconds = 0.0;  // without a limit there is nothing to foresee
+  EXPECT_EQ(hull_of(set, {.limits = busy}).status, HullStatus::kComplete);
+}
+
 TEST(LimitsLaw, TheTimeLimitIsForTheWholeCallAndGrowthIsRecorded) {
   const PointSet set = sphere(5000, 9);
   for (const double seconds : {0.25 * kSlower, 1.0 * kSlower}) {

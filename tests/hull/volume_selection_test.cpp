@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
 
 #include "approx/polytope/outer_volume.h"
 #include "approx/selection/facet_selection.h"
+#include "approx/selection/ray_gains_kernel.h"
 #include "core/error.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
@@ -19,6 +23,52 @@ double enclosed(const Hull& hull, const std::vector<FacetId>& facets) {
   const OuterVolume outer = outer_volume(hull, facets, 0, 1);
   EXPECT_TRUE(outer.volume) << outer.reason;
   return outer.volume.value_or(0.0);
+}
+
+// One plane and one ray at a time, as the formula is written.
+TEST(RayGainsOracle, VectorsAddWhatTheFormulaSays) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  for (const std::size_t rank : {2U, 3U, 8U, 13U}) {
+    SCOPED_TRACE("rank " + std::to_string(rank));
+    std::vector<double> planes(rank * kGainBlock), gains(kGainBlock), expected;
+    for (double& value : planes) value = normal(random);
+    for (double& value : gains) value = normal(random);
+    expected = gains;
+    RayChanges changes;
+    for (std::size_t ray = 0; ray < 50; ++ray) {
+      for (std::size_t k = 0; k < rank; ++k) changes.directions.push_back(normal(random));
+      const double a = 0.1 + std::abs(normal(random)), b = 0.1 + std::abs(normal(random));
+      changes.lower.push_back(std::min(a, b));
+      changes.upper.push_back(ray % 5 == 0 ? HUGE_VAL : std::max(a, b));
+      changes.difference.push_back(normal(random));
+      changes.sign.push_back(ray % 2 == 0 ? 1.0 : -1.0);
+      changes.shorter.push_back(0.3 * std::abs(normal(random)));
+    }
+    std::size_t behind = 0, between = 0, first = 0;
+    for (std::size_t plane = 0; plane < kGainBlock; ++plane) {
+      for (std::size_t ray = 0; ray < changes.count(); ++ray) {
+        double slope = 0.0;
+        for (std::size_t k = 0; k < rank; ++k)
+          slope += changes.directions[ray * rank + k] * planes[k * kGainBlock + plane];
+        if (slope <= changes.lower[ray]) {
+          ++behind;
+        } else if (slope >= changes.upper[ray]) {
+          ++first;
+          expected[plane] += changes.difference[ray];
+        } else {
+          ++between;
+          double content = 1.0;
+          for (std::size_t k = 0; k < rank; ++k) content /= slope;
+          expected[plane] += changes.difference[ray] - changes.sign[ray] * (content - changes.shorter[ray]);
+        }
+      }
+    }
+    EXPECT_TRUE(behind > 0 && between > 0 && first > 0);
+    add_ray_gains(planes.data(), rank, changes, gains.data());
+    for (std::size_t plane = 0; plane < kGainBlock; ++plane)
+      EXPECT_NEAR(gains[plane], expected[plane], 1e-11 * (1.0 + std::abs(expected[plane])));
+  }
 }
 
 TEST(VolumeSelectionLaw, TwentyPlanesEncloseNoMoreThanTheTwentyLargestAndThoseThatCloseThem) {

@@ -11,6 +11,7 @@
 
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
+#include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {
@@ -147,6 +148,34 @@ TEST(BoundednessLaw, CompletedSelectionsAreBoundedAndNoneOfTheAddedCanBeSpared) 
         EXPECT_EQ(together.size(), d + 1);  // no fewer bound anything
       }
       EXPECT_LE(added.size(), d + 1);
+    }
+  }
+}
+
+// They are priced in parts of 4,096, and an even part of more than 32,768 says what is even.
+TEST(BoundednessLaw, AmongVeryManyNormalsCompletionsAreAsSmall) {
+  const std::size_t d = 6;
+  const Hull hull = hull_of(rbox("400 s D6 t1"));
+  ASSERT_GT(hull.facet_count(), 32'768U);
+  for (const std::size_t count : {0U, 1U, 4U, 12U}) {
+    SCOPED_TRACE("selected " + std::to_string(count));
+    std::vector<std::uint32_t> selected(count);
+    for (std::size_t k = 0; k < count; ++k) selected[k] = static_cast<std::uint32_t>(1000 * k);
+    const std::vector<std::uint32_t> added = complete_to_bounded(hull.normals(), d, selected);
+    std::vector<std::uint32_t> together = selected;
+    together.insert(together.end(), added.begin(), added.end());
+    const std::vector<double> normals = normals_of(hull);
+    EXPECT_TRUE(find_open_direction(rows_of(normals, d, together), d).bounded);
+    EXPECT_TRUE(std::is_sorted(added.begin(), added.end()));
+    if (count <= 1) {
+      EXPECT_EQ(together.size(), d + 1);
+    } else {
+      EXPECT_LE(added.size(), d);
+    }
+    for (std::size_t k = 0; k < added.size(); ++k) {
+      std::vector<std::uint32_t> fewer = together;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(count + k));
+      EXPECT_FALSE(find_open_direction(rows_of(normals, d, fewer), d).bounded);
     }
   }
 }
