@@ -103,7 +103,7 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
             "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   }
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
-  const Eigen::VectorXd lengths = vertices.rowwise().norm();
+  const Eigen::VectorXd lengths = vertices.rowwise().norm() * (1.0 + 0x1p-50);  // their rounding
   const double vertex_work = static_cast<double>(planes.rank) * static_cast<double>(vertices.rows());
   const double gauge_work = vertex_work * static_cast<double>(hull.facet_count());
   const double search_work = vertex_work * kSearchRounds * static_cast<double>(hull.vertices.size());
