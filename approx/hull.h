@@ -173,9 +173,8 @@ class Hull {
   std::span<const double> normal(FacetId facet) const {
     return {normals_.data() + facet.value * dimension, dimension};
   }
-  std::span<const double> normals() const {
-    return {normals_.data(), facet_count() * dimension};
-  }  ///< of all
+  /// Of all facets, one after the other.
+  std::span<const double> normals() const { return {normals_.data(), facet_count() * dimension}; }
   double offset(FacetId facet) const;
   double centred_offset(FacetId facet) const { return centred_offsets_[facet.value]; }
   double outer_offset(FacetId facet) const { return outer_[facet.value]; }  ///< >= 0, length unit
