@@ -20,7 +20,7 @@ constexpr double kMergeShare = 3.0;
 constexpr double kCoverShare = 10.0;
 /// Points that are located to learn what that costs; and what walking adds where climbing proves nothing, and
 /// the longer ways in a hull that may be twice as large by then: 10-d spheres.
-constexpr std::size_t kSampledPoints = 64;
+constexpr std::size_t kSampledPoints = 64, kSamplesAgain = 3;
 constexpr double kPointShare = 1.5;
 
 /// [bytes] of a simplex beside its planes, vertices and neighbours: state, outside set, free list; then
@@ -92,17 +92,22 @@ double WorkLimits::seconds_per_created(const GrowthWork& work) {
   return seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.created));
 }
 
+double WorkLimits::sampled_seconds_per_point(const GrowthWork& work, const HullBall& ball,
+                                             std::size_t first) {
+  std::vector<PointId> sample;
+  const std::size_t step = std::max<std::size_t>(1, work.point_count / kSampledPoints);
+  for (std::size_t id = first % step; id < work.point_count; id += step)
+    sample.push_back(PointId{static_cast<std::uint32_t>(id)});
+  const Clock::time_point begin = Clock::now();
+  try_inside(work.complex, work.points, ball, sample);
+  return kPointShare * seconds_since(begin) / static_cast<double>(sample.size());
+}
+
 double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points) {
   const std::uint64_t rows = work.complex.row_count - work.free_count;
   if (rows >= 2 * sampled_at_) {
     sampled_at_ = rows;
-    std::vector<PointId> sample;
-    const std::size_t step = std::max<std::size_t>(1, work.point_count / kSampledPoints);
-    for (std::size_t id = 0; id < work.point_count; id += step)
-      sample.push_back(PointId{static_cast<std::uint32_t>(id)});
-    const Clock::time_point begin = Clock::now();
-    try_inside(work.complex, work.points, ball, sample);
-    seconds_per_point_ = kPointShare * seconds_since(begin) / static_cast<double>(sample.size());
+    seconds_per_point_ = sampled_seconds_per_point(work, ball, 0);
   }
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
@@ -116,8 +121,17 @@ bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::u
   if (limits_.max_seconds <= 0.0) return false;
   // Other work on the machine and what is not foreseen one by one: better too early than too late.
   constexpr double kReserve = 0.05;
-  const double left = seconds_left() - kReserve * limits_.max_seconds;
-  return left <= 0.0 || finish_seconds(work, ball, points) >= left;
+  const auto is_up = [&](std::uint64_t point_count) {
+    const double left = seconds_left() - kReserve * limits_.max_seconds;
+    return left <= 0.0 || finish_seconds(work, ball, point_count) >= left;
+  };
+  // A few milliseconds that other work took from the sample stand for seconds in all: growth ends for the
+  // points only on what samples of other points say as well.
+  for (std::size_t again = 0; is_up(points); ++again) {
+    if (again == kSamplesAgain || is_up(0)) return true;
+    seconds_per_point_ = std::min(seconds_per_point_, sampled_seconds_per_point(work, ball, again + 1));
+  }
+  return false;
 }
 
 bool WorkLimits::has_time_to_cover(const GrowthWork& work) const {

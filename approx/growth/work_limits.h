@@ -50,6 +50,8 @@ class WorkLimits {
   static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);
   std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
+  /// Of some points from the one with id `first` on, taken evenly.
+  static double sampled_seconds_per_point(const GrowthWork& work, const HullBall& ball, std::size_t first);
   static double seconds_per_created(const GrowthWork& work);
 
   Limits limits_;
