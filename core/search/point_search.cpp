@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatTag = hn::CappedTag<float, PointTree::kSize>;
 
-/// One search: a direction, of length 1 in the cones' coordinates, and the best so far.
+/// One search: a direction, of length 1 in the enclosures' coordinates, and the best so far.
 template <std::size_t D>
 class Search {
  public:
@@ -35,8 +35,9 @@ class Search {
         along_(bounds_.size()),
         lately_(kLately * width_) {
     // Roundings in single precision, each at most 2^-24 of the reach: of the direction, the axes, the sums
-    // and what is made of them. The angles of the cones have room for what a root makes of theirs.
-    margin_ = static_cast<float>(tree.reach() * static_cast<double>(width_ + 12) * 0x1p-23);
+    // (of two products a coordinate for boxes) and what is made of them. The angles of the cones have room for
+    // what a root makes of theirs.
+    margin_ = static_cast<float>(tree.reach() * static_cast<double>(2 * width_ + 12) * 0x1p-23);
   }
 
   FurthestPoint run(const double* normal, double known) {
@@ -45,7 +46,7 @@ class Search {
     best_ = known;
     place_ = kNone;
     raise_threshold();
-    const Cones& clusters = tree_.clusters();
+    const Enclosures& clusters = tree_.clusters();
     look_at_latest();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
     const auto search = [this](std::size_t group) { search_group(group); };
@@ -67,7 +68,7 @@ class Search {
     scale();
     best_ = least;
     raise_threshold();
-    const Cones& clusters = tree_.clusters();
+    const Enclosures& clusters = tree_.clusters();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
     search_clusters([&](std::size_t group) {
       for_each_near(group, [&](std::size_t place) {
@@ -151,31 +152,50 @@ class Search {
 
   // A NaN, of a normal without length or the like, leaves nothing out.
   void raise_threshold() {
-    constexpr float kSpare = 0x1p-40f;  // as the reaches of cones have
+    constexpr float kSpare = 0x1p-40f;  // as enclosures have
     threshold_ = static_cast<float>(best_ / largest_ / length_ - middle_) - margin_;
     point_threshold_ = threshold_ - kSpare;
   }
 
-  /// Upper bounds, but for the margin, on how far the cones [begin, end) reach, and the cosines to their
-  /// axes.
-  HWY_INLINE void bound(const Cones& cones, std::size_t begin, std::size_t end, float* bounds,
+  /// Upper bounds, but for the margin, on how far the enclosures [begin, end) reach, and the cosines to the
+  /// axes of their cones. Boxes are looked at where a cone of the vector reaches the threshold.
+  HWY_INLINE void bound(const Enclosures& level, std::size_t begin, std::size_t end, float* bounds,
                         float* cosines) const {
     const FloatTag tag;
-    const auto one = hn::Set(tag, 1.0f), zero = hn::Zero(tag);
+    const auto one = hn::Set(tag, 1.0f), zero = hn::Zero(tag), threshold = hn::Set(tag, threshold_);
     for (std::size_t at = begin; at < end; at += hn::Lanes(tag)) {
-      auto along = hn::Mul(hn::Set(tag, scaled_[0]), hn::LoadU(tag, cones.axes.data() + at));
+      auto along = hn::Mul(hn::Set(tag, scaled_[0]), hn::LoadU(tag, level.axes.data() + at));
       for (std::size_t k = 1; k < width(); ++k) {
         const auto normal = hn::Set(tag, scaled_[k]);
-        along = hn::MulAdd(normal, hn::LoadU(tag, cones.axes.data() + k * cones.stride + at), along);
+        along = hn::MulAdd(normal, hn::LoadU(tag, level.axes.data() + k * level.stride + at), along);
       }
-      const auto cosine = hn::LoadU(tag, cones.cosines.data() + at);
+      const auto cosine = hn::LoadU(tag, level.cosines.data() + at);
       const auto across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, one), zero));
-      const auto turned = hn::MulAdd(along, cosine, hn::Mul(across, hn::LoadU(tag, cones.sines.data() + at)));
+      const auto turned = hn::MulAdd(along, cosine, hn::Mul(across, hn::LoadU(tag, level.sines.data() + at)));
       // In the cone: its whole reach. Behind: what is shortest reaches furthest.
       const auto share = hn::IfThenElse(hn::Lt(along, cosine), hn::Max(turned, zero), one);
-      hn::StoreU(hn::Mul(share, hn::LoadU(tag, cones.reaches.data() + at)), tag, bounds + (at - begin));
+      auto reach = hn::Mul(share, hn::LoadU(tag, level.reaches.data() + at));
+      if (!hn::AllTrue(tag, hn::Lt(reach, threshold))) reach = least_of(reach, box_reach(level, at));
+      hn::StoreU(reach, tag, bounds + (at - begin));
       hn::StoreU(along, tag, cosines + (at - begin));
     }
+  }
+
+  HWY_INLINE hn::VFromD<FloatTag> box_reach(const Enclosures& level, std::size_t at) const {
+    const FloatTag tag;
+    auto reach = hn::Zero(tag);
+    for (std::size_t k = 0; k < width(); ++k) {
+      const auto normal = hn::Set(tag, scaled_[k]);
+      const std::size_t from = k * level.stride + at;
+      reach = hn::MulAdd(normal, hn::LoadU(tag, level.centres.data() + from), reach);
+      reach = hn::MulAdd(hn::Abs(normal), hn::LoadU(tag, level.half_sizes.data() + from), reach);
+    }
+    return reach;
+  }
+
+  /// A NaN bounds nothing, and stays.
+  static HWY_INLINE hn::VFromD<FloatTag> least_of(hn::VFromD<FloatTag> a, hn::VFromD<FloatTag> b) {
+    return hn::IfThenElse(hn::Lt(b, a), b, a);
   }
 
   /// Calls `call` with the places of those entries that are not below the threshold, in order. A NaN is not

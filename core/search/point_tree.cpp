@@ -107,16 +107,17 @@ class NeighbourOrder {
   std::vector<Place> places_;
 };
 
-Cones make_cones(std::size_t dimension, std::size_t count) {
+Enclosures make_enclosures(std::size_t dimension, std::size_t count) {
   constexpr float kNowhere = -0x1p100f;  // as a reach
-  Cones cones;
-  cones.count = count;
-  cones.stride = (count + PointTree::kSize - 1) / PointTree::kSize * PointTree::kSize;
-  cones.axes.resize(cones.stride * dimension);
-  cones.reaches.assign(cones.stride, kNowhere);
-  cones.cosines.assign(cones.stride, -2.0f);
-  cones.sines.assign(cones.stride, 0.0f);
-  return cones;
+  Enclosures level;
+  level.count = count;
+  level.stride = (count + PointTree::kSize - 1) / PointTree::kSize * PointTree::kSize;
+  for (std::vector<float>* columns : {&level.axes, &level.centres, &level.half_sizes})
+    columns->resize(level.stride * dimension);
+  level.reaches.assign(level.stride, kNowhere);
+  level.cosines.assign(level.stride, -2.0f);
+  level.sines.assign(level.stride, 0.0f);
+  return level;
 }
 
 }  // namespace
@@ -150,8 +151,8 @@ void PointTree::find_columns(std::span<const double> points) {
 
 void PointTree::fill(std::span<const double> points) {
   const std::size_t group_count = (order_.size() + kSize - 1) / kSize;
-  groups_ = make_cones(dimension_, group_count);
-  clusters_ = make_cones(dimension_, (group_count + kSize - 1) / kSize);
+  groups_ = make_enclosures(dimension_, group_count);
+  clusters_ = make_enclosures(dimension_, (group_count + kSize - 1) / kSize);
   points_.resize(order_.size() * dimension_);
   scaled_rows_.resize(group_count * dimension_ * kSize);
   std::vector<double> per_size(dimension_);
@@ -173,20 +174,30 @@ void PointTree::fill(std::span<const double> points) {
             scaled[k * kSize] = static_cast<float>(from[k] * per_size[k] - middle_[k]);
           }
         }
-        fill_cone(group, group + 1, groups_, group);
+        enclose(group, group + 1, groups_, group);
       }
-      fill_cone(begin, end, clusters_, cluster);
+      enclose(begin, end, clusters_, cluster);
     }
   });
-  for (std::size_t i = 0; i < clusters_.count; ++i) reach_ = std::max(reach_, double{clusters_.reaches[i]});
+  for (std::size_t i = 0; i < clusters_.count; ++i) {
+    double corner_sq = 0.0;
+    for (std::size_t k = 0; k < dimension_; ++k) {
+      const std::size_t at = k * clusters_.stride + i;
+      const double furthest = std::abs(double{clusters_.centres[at]}) + clusters_.half_sizes[at];
+      corner_sq += furthest * furthest;
+    }
+    reach_ = std::max({reach_, double{clusters_.reaches[i]}, std::sqrt(corner_sq)});
+  }
 }
 
-// The axis goes through the mean of the points, seen from the middle of all.
-void PointTree::fill_cone(std::size_t first_group, std::size_t last_group, Cones& cones, std::size_t cone) {
+// The cone's axis goes through the mean of the points, seen from the middle of all.
+void PointTree::enclose(std::size_t first_group, std::size_t last_group, Enclosures& level, std::size_t at) {
   constexpr std::size_t kMostPoints = kSize * kSize;
   // A cone's angle is wider than its points need by this, and at least this: then the root of 1 - cosine^2 in
   // single precision turns a direction by less. [radian]
   constexpr double kTurn = 2e-3;
+  // Of the least that is reached, for what is left of a threshold when a middle far away is taken off.
+  constexpr float kSpare = 0x1p-40f;
   double along[kMostPoints] = {}, length_sq[kMostPoints] = {};
   const std::size_t count = (last_group - first_group) * kSize;
   std::vector<double> axis(dimension_);
@@ -198,13 +209,22 @@ void PointTree::fill_cone(std::size_t first_group, std::size_t last_group, Cones
     }
   };
   for (std::size_t k = 0; k < dimension_; ++k) {
-    for_each_of(k, [&](std::size_t, double x) { axis[k] += x; });
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for_each_of(k, [&](std::size_t, double x) {
+      axis[k] += x;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    });
+    const auto centre = static_cast<float>(0.5 * low + 0.5 * high);
+    const double half = std::max(high - double{centre}, double{centre} - low);
+    level.centres[k * level.stride + at] = centre;
+    level.half_sizes[k * level.stride + at] = std::nextafter(static_cast<float>(half), HUGE_VALF) + kSpare;
     axis_sq += axis[k] * axis[k];
   }
   const double per_length = axis_sq > 0.0 ? 1.0 / std::sqrt(axis_sq) : 0.0;
   for (std::size_t k = 0; k < dimension_; ++k) {
     axis[k] *= per_length;
-    cones.axes[k * cones.stride + cone] = static_cast<float>(axis[k]);
+    level.axes[k * level.stride + at] = static_cast<float>(axis[k]);
     const double entry = axis[k];
     for_each_of(k, [&](std::size_t i, double x) {
       along[i] += x * entry;
@@ -217,9 +237,9 @@ void PointTree::fill_cone(std::size_t first_group, std::size_t last_group, Cones
     if (length_sq[i] > 0.0) cosine = std::min(cosine, along[i] / std::sqrt(length_sq[i]));
   }
   const double angle = std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kTurn, M_PI);
-  cones.reaches[cone] = static_cast<float>(std::sqrt(reach_sq)) * (1.0f + 0x1p-20f) + 0x1p-40f;
-  cones.cosines[cone] = static_cast<float>(std::cos(angle));
-  cones.sines[cone] = static_cast<float>(std::sin(angle));
+  level.reaches[at] = static_cast<float>(std::sqrt(reach_sq)) * (1.0f + 0x1p-20f) + kSpare;
+  level.cosines[at] = static_cast<float>(std::cos(angle));
+  level.sines[at] = static_cast<float>(std::sin(angle));
 }
 
 }  // namespace ndhull

@@ -1,12 +1,13 @@
 // The furthest of many points along each of many directions: outer planes of hulls that leave points out, and
 // which point is furthest above which.
 //
-// Idea. Points in groups of neighbours, groups in clusters, each with a cone around it that begins in the
-// middle of all points: hulls are round, and from there a group is a small cap. Along a direction the points
-// that were furthest along directions before and the cone that may reach furthest are looked at first; most
-// others then reach less far than the best point found. Points of the rest are multiplied in single
-// precision, those that may be the furthest again in double. Bounds include their own rounding, so the result
-// is the same, digit for digit, as that of all products.
+// Idea. Points in groups of neighbours, groups in clusters, each in a box and in a cone that begins in the
+// middle of all points. Round hulls are what cones are for: from the middle a group is a small cap. Skewed
+// data, most of which lie to one side of the middle, and long ones are what boxes are for. Along a direction
+// the points that were furthest along directions before and the cluster that may reach furthest are looked at
+// first; most others then reach less far than the best point found. Points of the rest are multiplied in
+// single precision, those that may be the furthest again in double. Bounds include their own rounding, so the
+// result is the same, digit for digit, as that of all products.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +17,14 @@
 
 namespace ndhull {
 
-/// The cones of one level, by columns: what is within an angle of an axis and not longer than a reach. In
-/// coordinates scaled and moved as PointTree says.
-struct Cones {
+/// The cones and boxes of one level, by columns: what is within an angle of an axis and not longer than a
+/// reach, and no further from a centre than half a size in each coordinate. In coordinates scaled and moved as
+/// PointTree says.
+struct Enclosures {
   std::size_t count = 0, stride = 0;
   std::vector<float> axes;                     ///< dimension x stride, of length 1
   std::vector<float> reaches, cosines, sines;  ///< stride; of the angle; those behind the last reach nowhere
+  std::vector<float> centres, half_sizes;      ///< dimension x stride
 };
 
 /// Points in an order in which neighbours are together.
@@ -39,14 +42,14 @@ class PointTree {
   std::size_t point_count() const { return order_.size(); }
   /// Place i of the tree holds this row of the points.
   const std::vector<std::uint32_t>& order() const { return order_; }
-  /// Cones are in coordinates x / size - middle of each column, which are in [-2, 2].
+  /// Enclosures are in coordinates x / size - middle of each column, which are in [-2, 2].
   std::span<const double> column_sizes() const { return column_sizes_; }
   std::span<const double> middle() const { return middle_; }
-  /// No point is longer in those coordinates.
+  /// No point, and no corner of a box, is longer in those coordinates.
   double reach() const { return reach_; }
-  const Cones& groups() const { return groups_; }
-  const Cones& clusters() const { return clusters_; }
-  /// Coordinate k of the kSize points of a group in the cones' coordinates; the last point fills the last
+  const Enclosures& groups() const { return groups_; }
+  const Enclosures& clusters() const { return clusters_; }
+  /// Coordinate k of the kSize points of a group in the enclosures' coordinates; the last point fills the last
   /// group.
   const float* scaled_rows(std::size_t group, std::size_t k) const {
     return scaled_rows_.data() + (group * dimension_ + k) * kSize;
@@ -57,7 +60,7 @@ class PointTree {
  private:
   void find_columns(std::span<const double> points);
   void fill(std::span<const double> points);
-  void fill_cone(std::size_t first_group, std::size_t last_group, Cones& cones, std::size_t cone);
+  void enclose(std::size_t first_group, std::size_t last_group, Enclosures& level, std::size_t at);
 
   std::size_t dimension_;
   std::vector<std::uint32_t> order_;
@@ -66,7 +69,7 @@ class PointTree {
   double reach_ = 0.0;
   std::vector<double> points_;      // in order
   std::vector<float> scaled_rows_;  // by groups and columns
-  Cones groups_, clusters_;
+  Enclosures groups_, clusters_;
 };
 
 /// The furthest point along one direction.
@@ -82,12 +85,12 @@ struct FurthestPoint {
 /// Error   each product is a chain of fused multiply-adds from the first coordinate on: at most
 ///         gamma_dimension sum |n_k x_k| (Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed.,
 ///         eq. 3.5).
-/// Cost    a cone for each 256 points, and the points of the cones that reach furthest: on 10^5 points of a
+/// Cost    a cone for each 256 points, and the points of those that reach furthest: on 10^5 points of a
 ///         sphere in 8-d some 3 us a direction. At most all products.
 void find_furthest(const PointTree& tree, std::span<const double> normals, std::span<FurthestPoint> furthest);
 
 /// Appends every point whose product with `normal` is at least `least`, with the product, in the order of the
-/// tree. Error as above. Cost  a cone for each 256 points, and the points of the cones that reach so far.
+/// tree. Error as above. Cost  a cone for each 256 points, and the points of those that reach so far.
 void find_above(const PointTree& tree, std::span<const double> normal, double least,
                 std::vector<FurthestPoint>& found);
 
