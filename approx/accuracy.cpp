@@ -29,6 +29,28 @@ ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const Len
   return lengths;
 }
 
+void check_facet_target(const Accuracy& accuracy, std::size_t rank) {
+  if (accuracy.facets == 0 || accuracy.facets > rank) return;
+  throw Error(ErrorCode::kUsage, "target of facets: found " + std::to_string(accuracy.facets) +
+                                     ", expected at least " + std::to_string(rank + 1) +
+                                     ": the points span " + std::to_string(rank) +
+                                     " dimensions, and fewer planes bound no region; ask for more");
+}
+
+Accuracy above_rounding(Accuracy accuracy, const ResolvedAccuracy& lengths, double shift) {
+  constexpr double kShifts = 8.0;
+  const double least = kShifts * shift * lengths.largest_extent;
+  if (lengths.width <= least) accuracy.width = {};
+  if (lengths.outside_width <= least) accuracy.outside_width = {};
+  return accuracy;
+}
+
+bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width) {
+  constexpr double kSmall = 1e-6;
+  return max_facet_width > lengths.width && lengths.width > 0.0 &&
+         lengths.width <= kSmall * lengths.largest_extent;
+}
+
 double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
   if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
   return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);

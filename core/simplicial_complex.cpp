@@ -150,4 +150,18 @@ void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t>
         complex, [&](std::uint32_t row) { return new_of_old[row]; }, rows);
 }
 
+SimplicialComplex make_segment(const double* coordinates, std::size_t count) {
+  SimplicialComplex segment(1, 2);
+  segment.row_count = 2;
+  const double* const ends[2] = {std::min_element(coordinates, coordinates + count),
+                                 std::max_element(coordinates, coordinates + count)};
+  for (std::uint32_t row = 0; row < 2; ++row) {
+    segment.topology[2 * row] = static_cast<std::uint32_t>(ends[row] - coordinates);
+    segment.topology[2 * row + 1] = 1 - row;
+    segment.planes[row] = 1.0 / *ends[row];
+    segment.state[row] = SimplexState::kLive;
+  }
+  return segment;
+}
+
 }  // namespace ndhull

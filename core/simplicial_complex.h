@@ -88,4 +88,9 @@ std::vector<RowMove> compact(SimplicialComplex& complex);
 void permute_topology(SimplicialComplex& complex, std::span<const std::uint32_t> old_of_new,
                       std::size_t planes_kept);
 
+/// The hull of points on a line through 0, of which some are on either side: its two ends.
+///
+/// Shapes  coordinates: `count` of them.
+SimplicialComplex make_segment(const double* coordinates, std::size_t count);
+
 }  // namespace ndhull

@@ -36,16 +36,19 @@ class SlabCover {
             const SimplexRule* rule = nullptr);
 
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
-  /// wider becomes a facet all the same. The same for any number of threads.
+  /// wider becomes a facet all the same. The same for any number of threads. Given up, without planes, when it
+  /// turns out that they would be far more than `most`: expected_facets() then says about how many.
   /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes
   ///       a row for each thread, 8 for each place in a slab.
-  Covering cover(double width, const CoverEffort& effort);
+  Covering cover(double width, const CoverEffort& effort, std::size_t most = SIZE_MAX);
 
+  double expected_facets() const { return expected_facets_; }
   std::size_t live_count() const { return seeds_.live_count(); }
 
  private:
   using Members = std::span<const std::uint32_t>;
 
+  bool is_given_up(const CoverEffort& effort, std::size_t most);
   void add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort);
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
   void measure_facets(Covering& covering, double width, const CoverEffort& effort);
@@ -54,6 +57,7 @@ class SlabCover {
   const SimplicialComplex& complex_;
   const WidthSpace& space_;
   bool is_convex_;
+  double expected_facets_ = 0.0;
   SlabGrower grower_;
   SlabSeeds seeds_;
   std::vector<GrownSlab> batch_;

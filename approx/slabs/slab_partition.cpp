@@ -106,11 +106,15 @@ class Partitioner {
   /// Is it worth growing overlapping slabs, and choosing a few of them?
   bool is_worth_choosing(const SlabSizes& sizes) const {
     return above_ != PointsAbove::kAny && space_.share_of_others() > kSomeLeftOut &&
-           sizes.typical > kTurnedOfSome && static_cast<double>(live_count_) < kFewSlabs * sizes.typical;
+           sizes.typical > kTurnedOfSome && expected_slabs(sizes) < kFewSlabs;
   }
 
   bool is_better_by_stars(const SlabSizes& sizes) const {
     return live_count_ >= kFewSimplices && (sizes.mean < kThinSlabs || sizes.typical < kMostThin);
+  }
+
+  double expected_slabs(const SlabSizes& sizes) const {
+    return static_cast<double>(live_count_) / sizes.typical;
   }
 
   /// The marks of all simplices, no live one of them taken, and room for as many members.
@@ -360,12 +364,15 @@ class Partitioner {
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
-                                               double width, const FindDeterminants& find_determinants) {
+                                               double width, const FindDeterminants& find_determinants,
+                                               FacetLimit* limit) {
   if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
     const SlabSizes sizes = partitioner.slab_sizes();
     if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
+    if (limit) limit->expected = partitioner.expected_slabs(sizes);
+    if (limit && limit->is_exceeded()) return std::nullopt;
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
     if (walks) partitioner.choose_walks();
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };

@@ -2,6 +2,8 @@
 // plane that no point is above.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -15,8 +17,16 @@ namespace ndhull {
 /// Growth was shorter than the exact hull's where it left out so many points, in parts of the vertices.
 inline constexpr double kSomeLeftOut = 1.0 / 6.0;
 
+/// So many facets that they are of no use.
+struct FacetLimit {
+  std::size_t most = SIZE_MAX;
+  double expected = 0.0;  ///< out: about how many there would be
+  bool is_exceeded() const { return expected > static_cast<double>(most); }
+};
+
 /// Each live simplex is in one facet, whose simplices are connected. Nothing where growth left points out and
-/// so few slabs hold all that a choice among overlapping ones (approx/slabs/slab_cover.h) is better. Planes
+/// so few slabs hold all that a choice among overlapping ones (approx/slabs/slab_cover.h) is better, nor where
+/// a sample of slabs tells that there would be more than `limit` (none: nullptr). Planes
 /// are the seeds' own; where growth left many points out, or slabs are large, turned to what the slab holds.
 /// Vertices are listed unless slabs hold so few simplices that they were found from stars
 /// (approx/slabs/thin_slabs.h), which joining would hardly make fewer.
@@ -32,6 +42,7 @@ inline constexpr double kSomeLeftOut = 1.0 / 6.0;
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
-                                               double width, const FindDeterminants& find_determinants);
+                                               double width, const FindDeterminants& find_determinants,
+                                               FacetLimit* limit = nullptr);
 
 }  // namespace ndhull

@@ -201,17 +201,17 @@ std::span<const double> Approximation::find_determinants(const BlockWork& also) 
 
 /// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
 /// overlapping ones are better. For a number of facets determinants are not wanted yet.
-std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, bool is_for_count) {
+std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, FacetLimit* limit_of_count) {
   const SimplicialComplex& complex = growth_.work().complex;
   const double* coordinates = growth_.coordinates();
   const PointsAbove above = !growth_.work().shifted_points.empty() ? PointsAbove::kAny
                             : is_convex()                          ? PointsAbove::kNoPoint
                                                                    : PointsAbove::kLeftOut;
   FindDeterminants find;
-  if (above != PointsAbove::kAny && !is_for_count)
+  if (above != PointsAbove::kAny && limit_of_count == nullptr)
     find = [this](const BlockWork& also) { return find_determinants(also); };
   std::optional<DualFacets> facets =
-      partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find);
+      partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find, limit_of_count);
   if (!facets || !facets->may_join()) return facets;
   const std::size_t simplices = facets->begin.back();
   std::size_t most = std::max<std::size_t>(1, simplices / (kPartOfMean * facets->count()));
@@ -247,7 +247,7 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
     if (width < thinnest()) return Covering{};
     width *= 0.75;
     ++hull_.chosen.refused_merges;
-    slabs = find_disjoint_slabs(width, false);
+    slabs = find_disjoint_slabs(width);
     covering = cover();
     if (covering.planes.size() == live) break;
   }
@@ -277,7 +277,7 @@ FacetClusters Approximation::run_width() {
       take_in(outside_width);
       continue;
     }
-    std::optional<DualFacets> slabs = find_disjoint_slabs(slab, false);
+    std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
     if (slabs && is_final(*slabs) && !is_thorough()) {
       hull_.chosen.outside_width = outside_width;
       hull_.chosen.slab_width = slab;

@@ -12,6 +12,7 @@
 #include "approx/hull.h"
 #include "approx/slabs/dual_facets.h"
 #include "approx/slabs/slab_cover.h"
+#include "approx/slabs/slab_partition.h"
 #include "approx/slabs/star_hull.h"
 #include "approx/slabs/width_space.h"
 #include "approx/trade/region_closing.h"
@@ -71,7 +72,7 @@ class Approximation {
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   void join_neighbours(Covering& covering, double width) const;
   std::span<const double> find_determinants(const BlockWork& also);
-  std::optional<DualFacets> find_disjoint_slabs(double width, bool is_for_count);
+  std::optional<DualFacets> find_disjoint_slabs(double width, FacetLimit* limit_of_count = nullptr);
   bool is_final(const DualFacets& facets) const;
   bool is_thorough() const { return accuracy_.effort == Effort::kThorough; }
   Covering cover_width(double width, std::optional<DualFacets> slabs, HullFacets* known);
@@ -98,6 +99,7 @@ class Approximation {
   Covering cover_count(std::uint64_t count, const CoverEffort& effort, double start_width, double slack,
                        CountSearch& search);
   std::size_t live_count() const { return growth_.work().complex.row_count - growth_.work().free_count; }
+  bool is_whole();
   bool is_coarse_for(double slab, double outside_width);
   /// What slabs for a number of facets may be as thick as.
   struct SlabGuess {

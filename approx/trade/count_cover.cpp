@@ -30,6 +30,11 @@ constexpr std::uint64_t kMostCovered = 8'000'000;
 /// Rounds of more points, likewise.
 constexpr int kMostRounds = 24;
 constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
+/// A covering is given up when it would have so many times the facets that are wanted: one by slabs that are
+/// far too thin takes seconds where points are left out far above them.
+constexpr std::uint64_t kFarTooMany = 8;
+/// Simplices of a hull that takes hardly any time to be grown to the end.
+constexpr std::uint64_t kSmallHull = 50'000;
 /// Disjoint slabs take this part of the time of overlapping ones, at most.
 constexpr std::uint64_t kDisjointQuicker = 2;
 /// Coverings of the search, and what takes off the last tenth.
@@ -92,12 +97,15 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
                                                    CountSearch& search) {
   const bool joins = is_worth_joining(count, live_count());
   std::optional<DualFacets> slabs;
+  FacetLimit limit{.most = kFarTooMany * count};
   const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
-  if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, true);
+  if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, &limit);
+  if (limit.is_exceeded()) return {static_cast<std::size_t>(limit.expected), {}};
   search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
   if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
-  Covering covering = slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort);
+  Covering covering = slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, limit.most);
+  if (covering.planes.empty()) return {static_cast<std::size_t>(overlapping->expected_facets()), {}};
   if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
   return {covering.planes.size(), std::move(covering)};
 }
@@ -119,7 +127,8 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   Covering best;
   double best_width = 0.0, log_width = std::log(start_width);
   for (int trial = 0; trial < kMostCoverings; ++trial) {
-    if (growth_.is_late() && (!best.planes.empty() || trial >= kMostCoveringsLate)) break;
+    const bool is_enough = growth_.is_late() || search.covered > kMostCovered;
+    if (is_enough && (!best.planes.empty() || trial >= kMostCoveringsLate)) break;
     const double width = std::exp(log_width);
     CountTrial found = try_width(count, effort, width, overlapping, search);
     const double log_count = std::log(static_cast<double>(found.facets));
@@ -214,10 +223,11 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
     close_and_join(covering, width, joins);
     if (covering.planes.size() <= count && keeps_hull(covering)) try_covering(covering, width);
   };
-  if (!search.has_any() || can_go_on()) {
-    const GrowthWork& work = growth_.work();
-    try_covering(cover_by_first_simplex(work.complex, *space_, frame_, growth_.coordinates()), 0.0);
-  }
+  // As few facets as a hull can have, which may be the narrowest of a search that ended early.
+  const Covering fewest =
+      cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
+  consider(fewest, 0.0, search);
+  if (can_go_on()) try_covering(fewest, 0.0);
   double start = search.width, width = start * std::sqrt(kProbeStep);
   for (int step = 0; step < kProbesThinner && can_go_on(); ++step, width *= kProbeStep) {
     probe(width, kHarder);
@@ -249,7 +259,7 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, co
     is_paused = has_paused(enough, HUGE_VAL);
   }
   // What is further outside makes facets wider, whatever the slabs.
-  if (is_paused && live_count() < affordable_rows_) has_paused(most, guess.coarse);
+  if (is_paused && live_count() < most_far) has_paused(most_far, guess.coarse);
   locate_left_out(outside_width);
   return growth_.work().counters.insertions > insertions;
 }
@@ -260,6 +270,12 @@ bool Approximation::is_coarse_for(double slab, double outside_width) {
   if (height == 0.0)  // it had ended
     return outside_width > flat() && kShareForGrowth * slab < kCoarse * outside_width;
   return height > kTooNearSlab * slab && live_count() < std::min(kMostWorthGrowing, affordable_rows_);
+}
+
+/// Is the hull the exact one? Nothing that was left out is outside by more than rounding.
+bool Approximation::is_whole() {
+  return growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
+         hull_.max_outside_gauge <= 4.0 * growth_.work().options.shift;
 }
 
 /// From a coarse hull. Its slabs hold the points left out as well: those of the hull that is wanted are
@@ -301,8 +317,13 @@ FacetClusters Approximation::run_count() {
     guess.coarse = guess.slab = std::max(0.1 * lengths_.largest_extent, 2.0 * outside_width);
   double width = guess.slab;
   grow_for_count(count, outside_width, guess);
-  if (outside_width == 0.0 && growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
-      count_exact_facets(growth_.work(), growth_.coordinates()) <= count)
+  // A few facets that share all points, as a grid's, are found when all points are in.
+  if (!is_given && !is_whole() && is_degenerate() && live_count() <= kSmallHull && !growth_.is_limited()) {
+    outside_width = 0.0;
+    take_in(outside_width);
+    grow_for_count(count, outside_width, guess);
+  }
+  if (is_whole() && count_exact_facets(growth_.work(), growth_.coordinates()) <= count)
     return FacetClusters{};       // the exact hull it is
   search.narrowest = Covering{};  // of the coarse hull
   bool is_better_search = false, is_from_wide = false;

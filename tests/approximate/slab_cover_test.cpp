@@ -30,6 +30,17 @@ TEST(SlabCoverLaw, EachSimplexIsInOneFacetNoWiderThanAsked) {
   }
 }
 
+TEST(SlabCoverLaw, ACoveringOfFarTooManyFacetsIsGivenUp) {
+  const GrownSphere sphere("400 s D5 t1", 400);
+  SlabCover cover(sphere.work.complex, *sphere.space, true);
+  const CoverEffort effort{.final_fit_steps = 0};
+  const std::size_t all = cover.cover(0.02, effort).planes.size();
+  EXPECT_EQ(cover.cover(0.02, effort, all).planes.size(), all);
+  EXPECT_TRUE(cover.cover(0.02, effort, all / 8).planes.empty());
+  EXPECT_GT(cover.expected_facets(), static_cast<double>(all) / 4.0);
+  EXPECT_LT(cover.expected_facets(), static_cast<double>(all) * 4.0);
+}
+
 TEST(SlabSeedsLaw, BatchesEndWhenNoSimplexIsOpen) {
   const GrownSphere sphere("300 s D4 t2", 300);
   for (const std::size_t members : {1u, 100u, 1000u}) {  // of each slab: its seed and rows behind it

@@ -44,12 +44,14 @@ void expect_all_products(const DirectionCloud& cloud) {
 }
 
 TEST(PointTreeLaw, TheResultIsThatOfAllProductsDigitForDigit) {
-  for_each_cloud({CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kFlat},
+  for_each_cloud({CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kFlat,
+                  CloudShape::kSkewed},
                  {1u, 2u, 3u, 5u, 8u, 16u, 19u}, {1u, 2u, 15u, 17u, 257u, 5000u}, expect_all_products);
 }
 
 TEST(PointTreeLaw, AllPointsAboveAreFound) {
-  for (const CloudShape shape : {CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere}) {
+  for (const CloudShape shape :
+       {CloudShape::kSphere, CloudShape::kBall, CloudShape::kFarSphere, CloudShape::kSkewed}) {
     for (const std::size_t dimension : {2u, 5u, 11u}) {
       const DirectionCloud cloud = make_cloud(shape, dimension, 3000, 1.0);
       const PointTree tree(dimension, cloud.points);

@@ -13,7 +13,7 @@
 
 namespace ndhull {
 
-enum class CloudShape { kSphere, kBall, kFarSphere, kFlat, kCubeCorners };
+enum class CloudShape { kSphere, kBall, kFarSphere, kFlat, kCubeCorners, kSkewed };
 
 /// Points, the ranges of their columns, and directions.
 struct DirectionCloud {
@@ -32,7 +32,7 @@ struct DirectionCloud {
 };
 
 /// Column k is multiplied by scale^k, the normals by its inverse. Flat: all in the plane x_0 = 1. Every fifth
-/// direction is an axis.
+/// direction is an axis. Skewed: lognormal, most points in one corner of their box.
 inline DirectionCloud make_cloud(CloudShape shape, std::size_t dimension, std::size_t count, double scale) {
   std::mt19937_64 random(dimension * 1000 + count);
   std::normal_distribution<double> normal;
@@ -52,6 +52,7 @@ inline DirectionCloud make_cloud(CloudShape shape, std::size_t dimension, std::s
       if (is_point && shape == CloudShape::kFarSphere) value += 100.0;
       if (is_point && shape == CloudShape::kFlat && k == 0) value = 1.0;
       if (is_point && shape == CloudShape::kCubeCorners) value = x[k] < 0.0 ? -1.0 : 1.0;
+      if (is_point && shape == CloudShape::kSkewed) value = std::exp(2.0 * x[k]);
       if (!is_point && row % 5 == 0) value = k == row % dimension ? 1.0 : 0.0;
       (is_point ? cloud.points : cloud.normals)
           .push_back(value * std::pow(scale, (is_point ? 1.0 : -1.0) * static_cast<double>(k)));
