@@ -98,6 +98,7 @@ void add_hull_command(CLI::App& app, int& exit_code) {
           "instead of POINTS: the points of all files of this pattern, in the order of their names; with "
           "mpirun each process reads a share of them")
       ->type_name("PATTERN")
+      ->check(some_text())
       ->excludes(columns);
   arguments->hull.add_to(*command);
   add_selection_options(*command, arguments->request.selection);

@@ -72,7 +72,8 @@ void add_options(CLI::App& command, IntersectArguments& arguments) {
       ->check(positive_number());
   command
       .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
-      ->type_name("B");
+      ->type_name("B")
+      ->check(some_text());
   command
       .add_option("--threads", options.threads,
                   "0, the default: all cores; the result is the same for any number")

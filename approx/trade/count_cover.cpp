@@ -14,6 +14,8 @@ namespace {
 /// Simplices that are worth growing for a target number; so many where points left out are nearly as far
 /// outside as a facet may be wide. Covering them takes about as long as growing them did.
 constexpr std::uint64_t kWorthGrowing = 250'000, kMostWorthGrowing = 1'000'000;
+/// The same where points are further outside than facets of a coarse hull are wide.
+constexpr std::uint64_t kMostWhereFar = 2'000'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// One in so many is grown beyond that for slabs as thin as they are thought to become.
@@ -101,11 +103,12 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
   const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
   if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, &limit);
   if (limit.is_exceeded()) return {static_cast<std::size_t>(limit.expected), {}};
-  search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
+  if (slabs) search.covered += live_count() / kDisjointQuicker;
   if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
   Covering covering = slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, limit.most);
   if (covering.planes.empty()) return {static_cast<std::size_t>(overlapping->expected_facets()), {}};
+  if (!slabs) search.covered += live_count();
   if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
   return {covering.planes.size(), std::move(covering)};
 }
@@ -259,7 +262,12 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, co
     is_paused = has_paused(enough, HUGE_VAL);
   }
   // What is further outside makes facets wider, whatever the slabs.
-  if (is_paused && live_count() < most_far) has_paused(most_far, guess.coarse);
+  const std::uint64_t most_where_far = std::min(kMostWhereFar, affordable_rows_);
+  const auto are_further = [&] { return growth_.furthest_height() > guess.coarse; };
+  for (std::uint64_t enough = most; is_paused && live_count() < most_where_far && are_further();) {
+    enough = std::min(most_where_far, std::max(enough, live_count()) + kWorthGrowing / 4);
+    is_paused = has_paused(enough, HUGE_VAL);
+  }
   locate_left_out(outside_width);
   return growth_.work().counters.insertions > insertions;
 }

@@ -50,6 +50,13 @@ CLI::Validator path_name() {
   return {check, ""};
 }
 
+CLI::Validator some_text() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "found an empty value; write it, or leave the option out" : "";
+  };
+  return {check, ""};
+}
+
 CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
   return command
       .add_option_function<std::string>(

@@ -17,6 +17,8 @@ CLI::Validator positive_number();
 CLI::Validator number_from_0();
 /// A path, which is not the empty word.
 CLI::Validator path_name();
+/// Not empty, as what a shell makes of a variable that is not set.
+CLI::Validator some_text();
 
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
 inline constexpr std::uint64_t kMostThreads = 1024;

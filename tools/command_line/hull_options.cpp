@@ -57,14 +57,14 @@ void check_triangulate(const HullOptions& options) {
     throw Error(
         ErrorCode::kUsage,
         "found --triangulate with facets of several simplices, which have one plane; leave it out, and "
-        "print simplices with --format Ft or i");
+        "print simplices with --format i");
 }
 
 }  // namespace
 
 void HullOptionSet::add_accuracy_to(CLI::App& command) {
   const auto add_length = [&command](const char* name, std::string& text, const char* help) {
-    command.add_option(name, text, help)->type_name("LENGTH");
+    command.add_option(name, text, help)->type_name("LENGTH")->check(some_text());
   };
   add_length("--width", width_, "target: no facet wider than this (certified), as few facets as possible");
   command
@@ -125,7 +125,8 @@ void HullOptionSet::add_to(CLI::App& command) {
       .add_option("--max-memory", max_memory_,
                   "limit: memory of the whole run, like 4G, 512M or 65536 bytes; otherwise four fifths of "
                   "what is free")
-      ->type_name("B");
+      ->type_name("B")
+      ->check(some_text());
   command.add_flag("--unit-cube", options_.unit_cube,
                    "measure offsets, widths and roundoff after scaling the input to the unit cube");
   command.add_flag("--triangulate", options_.triangulate,
