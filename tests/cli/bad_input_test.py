@@ -96,6 +96,7 @@ def test_usage_gives_one_line():
         [], ["no-such-command"], ["hull"], [*hull, "more"], [*hull, "--no-such-option"],
         [*hull, "--max-facets", "0"], [*hull, "--max-facets", "-3"], [*hull, "--max-facets", "1.5"],
         [*hull, "--max-seconds", "0"], [*hull, "--max-seconds", "nan"], [*hull, "--max-seconds", "soon"],
+        [*hull, "--width", ""], [*hull, "--max-memory", ""], ["hull", "--points-sharded", ""],
         [*hull, "--max-memory", "4X"], [*hull, "--max-memory", "0"], [*hull, "--max-memory", "-1G"],
         [*hull, "--threads", "-1"], [*hull, "--threads", "1000000"], [*hull, "--seed", "-1"],
         [*hull, "--format", "n Fq"], [*hull, "--format", ""], [*hull, "--format"],
