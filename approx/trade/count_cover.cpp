@@ -229,8 +229,11 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
   // As few facets as a hull can have, which may be the narrowest of a search that ended early.
   const Covering fewest =
       cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates());
-  consider(fewest, 0.0, search);
-  if (can_go_on()) try_covering(fewest, 0.0);
+  if (can_go_on()) {
+    try_covering(fewest, 0.0);
+  } else {
+    consider(fewest, 0.0, search);
+  }
   double start = search.width, width = start * std::sqrt(kProbeStep);
   for (int step = 0; step < kProbesThinner && can_go_on(); ++step, width *= kProbeStep) {
     probe(width, kHarder);
