@@ -23,7 +23,7 @@ struct HullArguments {
 
 void add_output_options(CLI::App& command, HullArguments& arguments) {
   HullRequest& request = arguments.request;
-  add_plane_options(command, request.planes_path, arguments.plane_kind);
+  add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
   command
       .add_option("--vertices", request.vertices_path,
                   "write the indices of the vertices, from 0: .npy, .csv, or text after their number")
@@ -113,8 +113,8 @@ void add_hull_command(CLI::App& app, int& exit_code) {
       "one.\n"
       "A limit that is hit ends growth; what there is is certified, written, and `status` in the report says "
       "so.\n"
-      "Of flat data planes are those within the subspace of the points, whose equations are in the report: "
-      "subspace_equations.\n"
+      "Of flat data planes are those within the subspace of the points; --equations writes planes that bound "
+      "it too, behind those of the facets.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull hull points.npy --planes outer.ine --report report.json") + "\n" +

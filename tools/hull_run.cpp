@@ -19,6 +19,7 @@
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
 #include "tools/command_line/selection_options.h"
+#include "tools/command_line/warnings.h"
 #include "tools/hull_input.h"
 #include "tools/hull_summary.h"
 #include "tools/io/index_writer.h"
@@ -73,6 +74,7 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
           {"outer_volume", request.outer_volume},
           {"planes", text_or_null(request.planes_path)},
           {"plane_kind", std::string(to_string(request.plane_kind))},
+          {"equations", request.equations},
           {"vertices", text_or_null(request.vertices_path)},
           {"report", text_or_null(request.report_path)},
           {"facet_list", request.facet_list},
@@ -97,12 +99,23 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
                    const FacetSelection* selection) {
   if (!request.planes_path.empty()) {
     const WrittenPlanes planes(hull, points, request.plane_kind);
+    std::vector<double> flat;
+    if (request.equations)
+      flat = subspace_planes(hull.subspace_equations, points, request.plane_kind);
+    else if (hull.rank < hull.dimension)
+      warn_of_open_subspace(hull.rank, hull.dimension);
     const std::size_t count = selection != nullptr ? selection->facets.size() : hull.facet_count();
-    write_planes(request.planes_path, count, hull.dimension, [&](std::size_t index, double* row) {
-      const FacetId facet =
-          selection != nullptr ? selection->facets[index] : FacetId{static_cast<std::uint32_t>(index)};
-      planes.fill(facet, {row, hull.dimension + 1});
-    });
+    const std::size_t columns = hull.dimension + 1;
+    write_planes(request.planes_path, count + flat.size() / columns, hull.dimension,
+                 [&](std::size_t index, double* row) {
+                   if (index >= count) {
+                     std::copy_n(flat.data() + (index - count) * columns, columns, row);
+                     return;
+                   }
+                   const FacetId facet = selection != nullptr ? selection->facets[index]
+                                                              : FacetId{static_cast<std::uint32_t>(index)};
+                   planes.fill(facet, {row, columns});
+                 });
   }
   if (!request.vertices_path.empty()) write_indices(request.vertices_path, hull.vertices);
   if (!request.formats.empty()) {

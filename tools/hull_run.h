@@ -23,6 +23,7 @@ struct HullRequest {
   bool outer_volume = false;  ///< for the report and the summary, whatever it costs
   std::string planes_path;
   PlaneKind plane_kind = PlaneKind::kOuter;
+  bool equations = false;  ///< of flat data, planes for their subspace are written too
   std::string vertices_path;
   std::string report_path;
   bool facet_list = false;

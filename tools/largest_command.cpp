@@ -55,7 +55,7 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
 
 void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
-  add_plane_options(command, request.planes_path, arguments.plane_kind);
+  add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
   command
       .add_option("--vertices", request.vertices_path,
                   "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number")

@@ -19,6 +19,7 @@
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
+#include "tools/command_line/warnings.h"
 #include "tools/io/index_writer.h"
 #include "tools/io/output_file.h"
 #include "tools/io/plane_writer.h"
@@ -39,6 +40,7 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const LargestRe
   return {{"columns", text_or_null(request.columns.list())},
           {"planes", text_or_null(request.planes_path)},
           {"plane_kind", std::string(to_string(request.plane_kind))},
+          {"equations", request.equations},
           {"vertices", text_or_null(request.vertices_path)},
           {"report", text_or_null(request.report_path)},
           {"facet_list", request.facet_list},
@@ -71,12 +73,18 @@ std::vector<double> plane_rows(const LargestFacets& found, std::span<const doubl
   return rows;
 }
 
-void write_results(const LargestRequest& request, const LargestFacets& found,
+void write_results(const LargestRequest& request, const LargestFacets& found, const PointView& points,
                    std::span<const double> largest) {
   if (!request.planes_path.empty()) {
-    const std::vector<double> rows = plane_rows(found, largest, request.plane_kind);
+    std::vector<double> rows = plane_rows(found, largest, request.plane_kind);
+    if (request.equations) {
+      const std::vector<double> flat = subspace_planes(found.subspace_equations, points, request.plane_kind);
+      rows.insert(rows.end(), flat.begin(), flat.end());
+    } else if (found.rank < found.dimension) {
+      warn_of_open_subspace(found.rank, found.dimension);
+    }
     const std::size_t columns = found.dimension + 1;
-    write_planes(request.planes_path, found.facets.size(), found.dimension,
+    write_planes(request.planes_path, rows.size() / columns, found.dimension,
                  [&rows, columns](std::size_t index, double* row) {
                    std::copy_n(rows.data() + index * columns, columns, row);
                  });
@@ -140,7 +148,7 @@ int run_largest(const LargestRequest& request) {
 
   progress.show_phase("write");
   const Clock::time_point write_start = Clock::now();
-  write_results(request, found, largest);
+  write_results(request, found, points.view(), largest);
   context.write_seconds = seconds_since(write_start);
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();

@@ -18,6 +18,7 @@ struct LargestRequest {
   LargestOptions options;
   std::string planes_path;
   PlaneKind plane_kind = PlaneKind::kOuter;
+  bool equations = false;  ///< of flat data, planes for their subspace are written too
   std::string vertices_path;
   std::string report_path;
   bool facet_list = false;

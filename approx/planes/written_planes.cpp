@@ -22,6 +22,33 @@ double gamma_bound(std::size_t operations) {
   return rounding / (1.0 - rounding);
 }
 
+/// Calls use(row) for all rows; of many, those that were used need no memory any more.
+template <class Use>
+void for_each_row(const PointView& points, const Use& use) {
+  constexpr std::size_t kRowsInBlock = std::size_t{1} << 15;
+  for (std::size_t begin = 0; begin < points.rows; begin += kRowsInBlock) {
+    const std::size_t end = std::min(points.rows, begin + kRowsInBlock);
+    for (std::size_t row = begin; row < end; ++row) use(row);
+    if (points.rows >= kPointsToReduce) give_back_rows(points, begin, end);
+  }
+}
+
+/// The highest value of n . x + b over all points, as exact arithmetic would have it at most, or, with
+/// direction -1, the lowest, as it would have it at least.
+double furthest_value(std::span<const double> plane, const PointView& points, std::span<const double> largest,
+                      double direction) {
+  const std::size_t dimension = points.dimension;
+  double furthest = -HUGE_VAL, size = std::abs(plane[dimension]);
+  for (std::size_t k = 0; k < dimension; ++k) size += std::abs(plane[k]) * largest[k];
+  for_each_row(points, [&](std::size_t row) {
+    double value = plane[dimension];
+    for (std::size_t k = 0; k < dimension; ++k) value += plane[k] * points.at(row, k);
+    furthest = std::max(furthest, direction * value);
+  });
+  const double underflow = static_cast<double>(2 * dimension + 4) * std::numeric_limits<double>::denorm_min();
+  return direction * (furthest + gamma_bound(dimension + 5) * size + underflow);
+}
+
 }  // namespace
 
 std::string_view to_string(PlaneKind kind) {
@@ -35,16 +62,11 @@ std::string_view to_string(PlaneKind kind) {
 
 std::vector<double> largest_coordinates(const PointView& points) {
   std::vector<double> largest(points.dimension, 0.0);
-  constexpr std::size_t kRowsInBlock = std::size_t{1} << 15;
-  for (std::size_t begin = 0; begin < points.rows; begin += kRowsInBlock) {
-    const std::size_t end = std::min(points.rows, begin + kRowsInBlock);
-    for (std::size_t row = begin; row < end; ++row) {
-      for (std::size_t k = 0; k < points.dimension; ++k) {
-        largest[k] = std::max(largest[k], std::abs(points.at(row, k)));
-      }
+  for_each_row(points, [&](std::size_t row) {
+    for (std::size_t k = 0; k < points.dimension; ++k) {
+      largest[k] = std::max(largest[k], std::abs(points.at(row, k)));
     }
-    if (points.rows >= kPointsToReduce) give_back_rows(points, begin, end);
-  }
+  });
   return largest;
 }
 
@@ -100,6 +122,28 @@ void WrittenPlanes::fill(FacetId facet, std::span<double> row) const {
                                            ": found an offset beyond the range of doubles, expected a finite "
                                            "one; divide the coordinates by a power of two");
   }
+}
+
+std::vector<double> subspace_planes(std::span<const double> equations, const PointView& points,
+                                    PlaneKind kind) {
+  std::vector<double> rows;
+  if (equations.empty()) return rows;
+  const std::size_t dimension = points.dimension, columns = dimension + 1;
+  const std::vector<double> largest = largest_coordinates(points), origin(dimension, 0.0);
+  std::vector<double> plane(columns);
+  for (std::size_t equation = 0; equation < equations.size(); equation += columns) {
+    for (const double sign : {1.0, -1.0}) {
+      for (std::size_t k = 0; k < columns; ++k) plane[k] = sign * equations[equation + k];
+      if (kind != PlaneKind::kMean) {
+        const double direction = kind == PlaneKind::kOuter ? 1.0 : -1.0;
+        const double furthest = furthest_value(plane, points, largest, direction);
+        plane[dimension] = written_offset(
+            {{plane.data(), dimension}, origin, plane[dimension], furthest, 1.0}, largest, direction);
+      }
+      rows.insert(rows.end(), plane.begin(), plane.end());
+    }
+  }
+  return rows;
 }
 
 }  // namespace ndhull

@@ -34,7 +34,7 @@ std::vector<double> largest_coordinates(const PointView& points);
 ///           kInner: the same with >= 0 for every vertex of the facet. kMean: hull.offset(facet), no promise.
 /// Cost      the plane is moved by the error of evaluating it, a few units in the last place of the largest
 ///           product: what data far from the origin lose by being written as planes through it.
-/// Flat data the rows are those of the facets; the equations of the subspace are not among them.
+/// Flat data the rows are those of the facets; subspace_planes gives those of the equations.
 /// Lifetime  the hull must outlive this object. Construction reads all points once.
 class WrittenPlanes {
  public:
@@ -49,5 +49,15 @@ class WrittenPlanes {
   PlaneKind kind_;
   std::vector<double> largest_;  // per column: largest |coordinate| of the input
 };
+
+/// The planes that bound flat data off the subspace that they lie in: of each equation of it two opposite
+/// ones, as rows of dimension + 1 numbers. None where there are no equations.
+///
+/// Shapes    equations: Hull::subspace_equations.
+/// Promise   that of WrittenPlanes, with all points in the place of a facet's vertices: between the outer
+///           planes of an equation there is the rounding by which points are off their subspace, and no more.
+/// Cost      reads all points once, when there are equations.
+std::vector<double> subspace_planes(std::span<const double> equations, const PointView& points,
+                                    PlaneKind kind);
 
 }  // namespace ndhull

@@ -26,7 +26,7 @@ KEYS = """ndhull input status options length_unit vertices facets simplicial_fac
     interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
 OPTIONS = """width facets objective effort outside_width centrum_radius max_cosine width_cap
     max_facets max_seconds max_memory unit_cube triangulate threads seed columns largest
-    select min_area most_merged bounded outer_volume planes plane_kind vertices report
+    select min_area most_merged bounded outer_volume planes plane_kind equations vertices report
     facet_list curve format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()
 # A hull of some millions of facets: it takes long enough to be interrupted, and its few points make an end quick.

@@ -71,6 +71,47 @@ def test_no_point_is_above_an_outer_plane():
             run("verify", path, planes_path)
 
 
+def test_equations_bound_flat_points_off_their_subspace():
+    folder = fresh_folder("equations")
+    rng = numpy.random.default_rng(5)
+    for name, points in [
+        ("shares", rng.dirichlet(numpy.ones(5), 200)),
+        ("far", rng.normal(size=(60, 2)) @ rng.normal(size=(2, 5)) * 1e3 + 1e6),
+        ("one point", numpy.full((3, 4), 0.1)),
+    ]:
+        path = folder / (name.replace(" ", "_") + ".npy")
+        numpy.save(path, points)
+        rank, dimension = report_of(path)["input"]["rank"], points.shape[1]
+        assert rank < dimension
+        off = points.mean(axis=0) + 1e-3 * numpy.abs(points).max() * rng.normal(size=(20, dimension))
+        queries = folder / "off.npy"
+        numpy.save(queries, numpy.vstack([off, points]))
+        for command in (["hull"], ["largest", "-n", 3, "--bounded"]):
+            for kind in ("outer", "mean", "inner"):
+                planes_path = folder / "planes.npy"
+                words = [command[0], path, *command[1:], "--planes", planes_path, "--plane-kind", kind, "--quiet"]
+                run(*words, "--equations")
+                planes = numpy.load(planes_path)
+                facets = len(planes) - 2 * (dimension - rank)
+                added = planes[facets:]
+                assert (added[::2, :-1] == -added[1::2, :-1]).all()
+                # Between the two planes of an equation there is the rounding of data and planes.
+                gap = abs(added[::2, -1] + added[1::2, -1]).max()
+                assert gap < 1e-13 * numpy.abs(points).max(), (name, kind, gap)
+                values = points @ added[:, :-1].T + added[:, -1]
+                assert kind != "outer" or values.max() <= 0, (name, kind)
+                assert kind != "inner" or values.min() >= 0, (name, kind)
+                if kind == "outer":
+                    check_outer(name, points, planes)
+                    run("verify", path, planes_path)
+                    places = [line.split()[2] for line in run("contains", planes_path, queries).stdout.splitlines()]
+                    assert places == ["outside"] * 20 + ["inside"] * len(points), (name, command)
+                done = run(*words)
+                if facets > 0:
+                    assert (numpy.load(planes_path) == planes[:facets]).all()
+                assert done.stderr.startswith("ndhull: warning: the points lie in") and "--equations" in done.stderr
+
+
 def test_the_same_planes_in_every_format():
     folder = fresh_folder("formats")
     run("rbox", "200 s D4 t1", "-o", folder / "points.txt")

@@ -66,7 +66,7 @@ CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
       ->type_name("LIST");
 }
 
-void add_plane_options(CLI::App& command, std::string& path, std::string& kind) {
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind, bool& equations) {
   CLI::Option* const planes = command
                                   .add_option("--planes", path,
                                               "write the facets' planes a.x + b <= 0, rows a b in input "
@@ -78,6 +78,10 @@ void add_plane_options(CLI::App& command, std::string& path, std::string& kind) 
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
       ->type_name("KIND")
       ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->needs(planes);
+  command
+      .add_flag("--equations", equations,
+                "of flat data, write two opposite planes more for each equation of their subspace")
       ->needs(planes);
 }
 

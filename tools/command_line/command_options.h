@@ -26,8 +26,8 @@ inline constexpr std::uint64_t kMostThreads = 1024;
 /// Adds --columns, of the points.
 CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns);
 
-/// Adds --planes and --plane-kind, of the facets of a hull.
-void add_plane_options(CLI::App& command, std::string& path, std::string& kind);
+/// Adds --planes, --plane-kind and --equations, of the facets of a hull.
+void add_plane_options(CLI::App& command, std::string& path, std::string& kind, bool& equations);
 
 /// The example at the end of a command's help.
 std::string example(const std::string& text);

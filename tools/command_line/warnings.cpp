@@ -1,0 +1,16 @@
+#include "tools/command_line/warnings.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace ndhull {
+
+void warn_of_open_subspace(std::size_t rank, std::size_t dimension) {
+  fmt::print(stderr,
+             "ndhull: warning: the points lie in a {}-d subspace of {}-d, and the planes written bound them "
+             "within it only; --equations adds the planes that bound them off it\n",
+             rank, dimension);
+}
+
+}  // namespace ndhull

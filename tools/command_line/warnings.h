@@ -1,0 +1,11 @@
+// Lines on standard error about results that are right, and may be taken for more than they say.
+#pragma once
+
+#include <cstddef>
+
+namespace ndhull {
+
+/// The planes written of flat data bound nothing off the subspace of the points.
+void warn_of_open_subspace(std::size_t rank, std::size_t dimension);
+
+}  // namespace ndhull
