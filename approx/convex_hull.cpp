@@ -13,7 +13,7 @@
 #include "approx/reduction/point_reduction.h"
 #include "approx/reduction/reduced_points.h"
 #include "approx/sharded_hull.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -20,11 +20,11 @@
 #include "approx/facets/later_areas.h"
 #include "approx/facets/later_simplices.h"
 #include "approx/geometry/length_unit.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/dimension_switch.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
+#include "core/machine/huge_array.h"
 #include "core/points.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

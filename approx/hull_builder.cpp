@@ -19,7 +19,7 @@
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 

@@ -3,8 +3,8 @@
 
 #include "approx/growth/begun_hull.h"
 #include "approx/hull.h"
+#include "core/machine/stopwatch.h"
 #include "core/points.h"
-#include "core/stopwatch.h"
 
 namespace ndhull {
 

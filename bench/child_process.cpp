@@ -25,7 +25,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/block_store.h"
+#include "core/machine/block_store.h"
 
 namespace ndhull {
 namespace {

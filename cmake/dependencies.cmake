@@ -19,6 +19,6 @@ if(NOT TARGET MPI::MPI_CXX)
   message(STATUS "MPI was not found: ndhull hull --points-sharded works in one process only")
 endif()
 
-# Highway's headers without its library, which nothing calls (core/simd_targets.h).
+# Highway's headers without its library, which nothing calls (core/machine/simd_targets.h).
 add_library(ndhull_simd INTERFACE)
 target_include_directories(ndhull_simd SYSTEM INTERFACE $<TARGET_PROPERTY:hwy::hwy,INTERFACE_INCLUDE_DIRECTORIES>)

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string>
 
-#include "core/dense_solve.h"
 #include "core/error.h"
-#include "core/greedy_simplex.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/greedy_simplex.h"
 
 namespace ndhull {
 namespace {

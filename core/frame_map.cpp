@@ -2,15 +2,15 @@
 // multiply-add to be fast: compiled for each instruction set, chosen at run time.
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/frame_map.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>
 
-#include "core/blocks.h"
 #include "core/frame.h"
+#include "core/machine/blocks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

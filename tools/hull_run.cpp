@@ -12,7 +12,7 @@
 #include "approx/report.h"
 #include "approx/selection/outer_distance.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/machine_memory.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"

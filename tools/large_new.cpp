@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/block_store.h"
+#include "core/machine/block_store.h"
 
 // Sanitizers have their own, which know where each block ends. (gcc defines a name, clang answers a
 // question.)

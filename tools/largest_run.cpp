@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/machine/stopwatch.h"
 #include "core/plane_value.h"
-#include "core/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/machine_memory.h"

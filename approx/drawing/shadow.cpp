@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "approx/geometry/subspace.h"
-#include "core/column_simplex.h"
+#include "core/linear/column_simplex.h"
 
 namespace ndhull {
 namespace {

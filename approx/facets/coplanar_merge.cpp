@@ -8,8 +8,8 @@
 
 #include "approx/facets/flat_facets.h"
 #include "approx/facets/flat_plane.h"
-#include "core/blocks.h"
-#include "core/plane_kernels.h"
+#include "core/machine/blocks.h"
+#include "core/search/plane_kernels.h"
 
 namespace ndhull {
 namespace {

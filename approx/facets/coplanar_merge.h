@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "approx/facets/facet_layout.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "approx/facets/flat_plane.h"
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "approx/facets/coplanar_merge.h"
-#include "core/determinants.h"
+#include "core/complex/determinants.h"
 
 namespace ndhull {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/blocks.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/growth/growth.h"
-#include "core/simplicial_complex.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 

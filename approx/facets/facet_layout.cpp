@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "approx/geometry/gradient_length.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/huge_array.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
-#include "core/simplicial_complex.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "approx/facets/facet_layout.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/id_rows.h"
 #include "core/ids.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

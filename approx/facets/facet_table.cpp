@@ -7,12 +7,12 @@
 
 #include "approx/facets/listed_facets.h"
 #include "approx/geometry/measure_scale.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/id_rows.h"
-#include "core/plane_kernels.h"
+#include "core/machine/blocks.h"
 #include "core/search/furthest_points.h"
 #include "core/search/highest_dots.h"
+#include "core/search/plane_kernels.h"
 
 namespace ndhull {
 namespace {

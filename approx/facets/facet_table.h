@@ -11,10 +11,10 @@
 #include "approx/facets/coplanar_merge.h"
 #include "approx/facets/later_areas.h"
 #include "approx/geometry/length_unit.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/frame.h"
-#include "core/huge_array.h"
 #include "core/id_rows.h"
-#include "core/simplicial_complex.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/prefetch.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

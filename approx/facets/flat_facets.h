@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -1,6 +1,6 @@
 #include "approx/facets/flat_plane.h"
 
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 

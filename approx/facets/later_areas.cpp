@@ -8,9 +8,9 @@
 
 #include "approx/geometry/gradient_length.h"
 #include "approx/geometry/measure_scale.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 

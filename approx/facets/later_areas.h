@@ -7,8 +7,8 @@
 #include <span>
 
 #include "approx/facets/facet_layout.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

@@ -6,10 +6,10 @@
 #include <bit>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/id_rows.h"
-#include "core/plane_kernels.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
+#include "core/search/plane_kernels.h"
 
 namespace ndhull {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "approx/facets/certificate_points.h"
 #include "approx/facets/facet_layout.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/id_rows.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

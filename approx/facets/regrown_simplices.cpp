@@ -4,11 +4,11 @@
 #include <array>
 #include <numeric>
 
+#include "core/complex/simplex_rows.h"
 #include "core/dimension_switch.h"
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/simplex_rows.h"
 
 namespace ndhull {
 namespace {

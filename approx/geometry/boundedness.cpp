@@ -7,10 +7,10 @@
 
 #include "approx/geometry/even_normals.h"
 #include "approx/geometry/subspace.h"
-#include "core/blocks.h"
-#include "core/column_table.h"
-#include "core/dense_views.h"
 #include "core/error.h"
+#include "core/linear/column_table.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

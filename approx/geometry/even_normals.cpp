@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 

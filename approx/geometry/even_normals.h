@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

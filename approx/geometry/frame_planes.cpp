@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "approx/geometry/orthonormal.h"
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
 #include "core/dimension_switch.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

@@ -5,7 +5,7 @@
 
 #include "approx/geometry/frame_planes.h"
 #include "approx/geometry/orthonormal.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

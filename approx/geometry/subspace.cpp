@@ -1,7 +1,7 @@
 #include "approx/geometry/subspace.h"
 
 #include "approx/geometry/orthonormal.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/complex/membership.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/membership.h"
 
 namespace ndhull {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

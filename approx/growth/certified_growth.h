@@ -14,9 +14,9 @@
 #include "approx/growth/begun_hull.h"
 #include "approx/growth/work_limits.h"
 #include "approx/hull.h"
+#include "core/complex/membership.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/membership.h"
 #include "core/points.h"
 
 namespace ndhull {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "approx/hull.h"
+#include "core/complex/membership.h"
 #include "core/growth/growth.h"
-#include "core/membership.h"
 
 namespace ndhull {
 

@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "approx/polytope/halfspace_set.h"
-#include "core/blocks.h"
 #include "core/error.h"
-#include "core/plane_kernels.h"
+#include "core/machine/blocks.h"
 #include "core/plane_value.h"
+#include "core/search/plane_kernels.h"
 
 namespace ndhull {
 namespace {

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "approx/planes/plane_scan_kernel.h"
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

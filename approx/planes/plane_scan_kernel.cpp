@@ -4,7 +4,7 @@
 
 #include "approx/planes/plane_scan_kernel.h"
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/planes/plane_scan_kernel.cpp"
 #include <hwy/foreach_target.h>

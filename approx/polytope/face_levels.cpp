@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/prefetch.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

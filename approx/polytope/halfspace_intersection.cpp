@@ -21,9 +21,9 @@
 #include "approx/polytope/halfspace_set.h"
 #include "approx/polytope/plane_polytope.h"
 #include "approx/polytope/polytope_vertices.h"
-#include "core/dense_views.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "approx/geometry/even_normals.h"
-#include "core/column_table.h"
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
 #include "core/error.h"
+#include "core/linear/column_table.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

@@ -10,8 +10,8 @@
 #include "approx/geometry/boundedness.h"
 #include "approx/geometry/subspace.h"
 #include "approx/polytope/plane_polytope.h"
-#include "core/blocks.h"
-#include "core/stopwatch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -9,12 +9,12 @@
 #include "approx/polytope/face_levels.h"
 #include "approx/polytope/plane_polytope.h"
 #include "approx/polytope/signed_measure.h"
-#include "core/blocks.h"
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
 #include "core/dimension_switch.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

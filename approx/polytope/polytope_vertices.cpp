@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "approx/geometry/even_normals.h"
 #include "approx/polytope/halfspace_region.h"
-#include "core/column_table.h"
-#include "core/dense_views.h"
+#include "core/linear/column_table.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

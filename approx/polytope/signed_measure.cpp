@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/id_rows.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 namespace {

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

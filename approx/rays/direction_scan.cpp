@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "approx/rays/direction_scan_kernel.h"
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

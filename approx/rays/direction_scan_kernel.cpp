@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/rays/direction_scan_kernel.cpp"
 #include <hwy/foreach_target.h>

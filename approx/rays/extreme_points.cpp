@@ -11,7 +11,7 @@
 #include "approx/rays/parting_planes.h"
 #include "approx/rays/ray_shooting.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "approx/geometry/orthonormal.h"
-#include "core/blocks.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -21,7 +21,7 @@
 #include "approx/rays/largest_search.h"
 #include "approx/rays/plane_certificate.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 #include "core/plane_value.h"
 
 namespace ndhull {

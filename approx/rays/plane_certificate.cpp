@@ -5,8 +5,8 @@
 
 #include "approx/facets/facet_table.h"
 #include "approx/geometry/frame_planes.h"
-#include "core/blocks.h"
-#include "core/plane_kernels.h"
+#include "core/machine/blocks.h"
+#include "core/search/plane_kernels.h"
 
 namespace ndhull {
 

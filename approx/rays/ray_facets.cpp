@@ -11,8 +11,8 @@
 #include "approx/geometry/frame_planes.h"
 #include "approx/geometry/orthonormal.h"
 #include "approx/hull.h"
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "approx/rays/near_copies.h"
-#include "core/blocks.h"
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
+#include "core/machine/blocks.h"
 #include "core/portable_random.h"
 
 namespace ndhull {

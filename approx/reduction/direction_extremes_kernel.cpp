@@ -2,7 +2,7 @@
 // looked at one by one only where one of them is beyond the extreme so far.
 #include "approx/reduction/direction_extremes_kernel.h"
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/reduction/direction_extremes_kernel.cpp"
 #include <hwy/foreach_target.h>

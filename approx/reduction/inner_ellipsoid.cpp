@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

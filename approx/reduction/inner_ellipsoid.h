@@ -8,8 +8,8 @@
 
 #include "approx/reduction/row_bits.h"
 #include "approx/reduction/sample_shape.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/points.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

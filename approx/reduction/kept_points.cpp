@@ -11,7 +11,7 @@
 #include <string>
 
 #include "approx/geometry/hull_distance.h"
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -11,11 +11,11 @@
 #include "approx/reduction/row_bits.h"
 #include "approx/reduction/sample_hull.h"
 #include "approx/reduction/shard_overview.h"
-#include "core/blocks.h"
+#include "core/complex/membership.h"
 #include "core/dimension_switch.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/membership.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -26,7 +26,7 @@ struct PointsToKeep {
 ///
 /// Method   A hull is grown, furthest point first, from a sample and from the points that are furthest along
 ///          many directions. What lies inside a ball that it contains is dropped, then what is more than 1e-9
-///          inside it by barycentric coordinates in one of its simplices (core/membership.h). Then the points
+///          inside it by barycentric coordinates in one of its simplices (core/complex/membership.h). Then the points
 ///          that were furthest outside are added, the hull grows eight times as large, and the points that
 ///          are left pass again.
 /// Returns  All rows where the points span less than all

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <numeric>
 
-#include "core/blocks.h"
 #include "core/error.h"
-#include "core/huge_array.h"
+#include "core/machine/blocks.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

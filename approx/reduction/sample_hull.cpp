@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/complex/membership.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
-#include "core/membership.h"
 
 namespace ndhull {
 

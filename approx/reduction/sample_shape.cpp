@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/dense_views.h"
 #include "core/dimension_switch.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

@@ -2,7 +2,7 @@
 // first.
 #include "approx/reduction/sample_shape_kernel.h"
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/reduction/sample_shape_kernel.cpp"
 #include <hwy/foreach_target.h>

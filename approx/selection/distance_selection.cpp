@@ -12,10 +12,10 @@
 #include "approx/selection/outer_distance.h"
 #include "approx/selection/plane_candidates.h"
 #include "approx/selection/volume_rays.h"
-#include "core/blocks.h"
-#include "core/column_table.h"
-#include "core/dense_views.h"
 #include "core/error.h"
+#include "core/linear/column_table.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

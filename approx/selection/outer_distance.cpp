@@ -9,8 +9,8 @@
 #include "approx/geometry/hull_distance.h"
 #include "approx/geometry/subspace.h"
 #include "approx/polytope/outer_volume.h"
-#include "core/blocks.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "approx/selection/ray_gains_kernel.h"
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/selection/ray_gains_kernel.cpp"
 #include <hwy/foreach_target.h>

@@ -9,8 +9,8 @@
 #include "approx/geometry/boundedness.h"
 #include "approx/selection/plane_candidates.h"
 #include "approx/selection/volume_rays.h"
-#include "core/blocks.h"
 #include "core/ids.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

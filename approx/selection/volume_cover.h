@@ -7,7 +7,7 @@
 
 #include "approx/facets/facet_layout.h"
 #include "approx/work_end.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

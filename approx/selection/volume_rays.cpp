@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "approx/selection/ray_gains_kernel.h"
-#include "core/blocks.h"
 #include "core/ids.h"
+#include "core/machine/blocks.h"
 #include "core/portable_random.h"
 
 namespace ndhull {

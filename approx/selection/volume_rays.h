@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "approx/work_end.h"
-#include "core/dense_views.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 

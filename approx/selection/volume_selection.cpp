@@ -12,8 +12,8 @@
 #include "approx/polytope/outer_volume.h"
 #include "approx/selection/plane_candidates.h"
 #include "approx/selection/volume_rays.h"
-#include "core/blocks.h"
 #include "core/error.h"
+#include "core/machine/blocks.h"
 #include "core/portable_random.h"
 
 namespace ndhull {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/dense_solve.h"
 #include "core/ids.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 namespace {

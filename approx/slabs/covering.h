@@ -8,8 +8,8 @@
 #include "approx/facets/facet_layout.h"
 #include "approx/slabs/plane_fit.h"
 #include "approx/slabs/width_space.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/frame.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

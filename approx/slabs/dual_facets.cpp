@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/blocks.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "approx/slabs/slab_growth.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

@@ -8,7 +8,7 @@
 #include "approx/slabs/covering.h"
 #include "approx/slabs/plane_fit.h"
 #include "approx/slabs/width_space.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -8,9 +8,9 @@
 
 #include "approx/geometry/gradient_length.h"
 #include "approx/slabs/slab_growth.h"
-#include "core/blocks.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/dimension_switch.h"
-#include "core/simplicial_complex.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -1,7 +1,7 @@
 // Facets of a given width for simplices that are known by their vertices alone.
 //
 // Idea. A slab, all that is less than the width below a plane that no point is above, is known by its
-// vertices; which simplices it holds is a search among rows (core/simplex_rows.h), and whether they hang
+// vertices; which simplices it holds is a search among rows (core/complex/simplex_rows.h), and whether they hang
 // together is of no account. So nothing has to know neighbours or planes of all simplices: each slab takes
 // what it holds and no other has. Slabs that would take few are put off, so that most are full
 // (approx/slabs/slab_partition.h does the same over neighbours).
@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "approx/slabs/width_space.h"
+#include "core/complex/simplex_rows.h"
 #include "core/id_rows.h"
 #include "core/ids.h"
-#include "core/simplex_rows.h"
 
 namespace ndhull {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 

@@ -12,8 +12,8 @@
 #include "approx/slabs/dual_facets.h"
 #include "approx/slabs/plane_fit.h"
 #include "approx/slabs/width_space.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

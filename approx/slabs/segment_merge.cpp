@@ -15,12 +15,12 @@
 
 #include "approx/geometry/gradient_length.h"
 #include "approx/slabs/segment_interval.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/huge_array.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
-#include "core/team.h"
+#include "core/machine/blocks.h"
+#include "core/machine/huge_array.h"
+#include "core/machine/prefetch.h"
+#include "core/machine/team.h"
 
 namespace ndhull {
 namespace {

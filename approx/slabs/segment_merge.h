@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "approx/slabs/dual_facets.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

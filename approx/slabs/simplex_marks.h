@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "core/dimension_switch.h"
-#include "core/huge_array.h"
-#include "core/prefetch.h"
+#include "core/machine/huge_array.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 

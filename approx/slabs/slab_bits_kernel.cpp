@@ -1,6 +1,6 @@
 #include "approx/slabs/slab_bits_kernel.h"
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "approx/slabs/slab_bits_kernel.cpp"
 #include <hwy/foreach_target.h>

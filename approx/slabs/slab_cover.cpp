@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "approx/slabs/facet_parts.h"
-#include "core/blocks.h"
 #include "core/ids.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

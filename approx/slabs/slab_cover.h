@@ -23,7 +23,7 @@
 #include "approx/slabs/slab_seeds.h"
 #include "approx/slabs/wide_cover.h"
 #include "approx/slabs/width_space.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

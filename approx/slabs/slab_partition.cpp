@@ -12,10 +12,10 @@
 
 #include "approx/slabs/seed_classes.h"
 #include "approx/slabs/seed_planes.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

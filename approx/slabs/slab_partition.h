@@ -10,7 +10,7 @@
 #include "approx/slabs/dual_facets.h"
 #include "approx/slabs/thin_slabs.h"
 #include "approx/slabs/width_space.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -9,10 +9,10 @@
 #include "approx/geometry/hull_distance.h"
 #include "approx/reduction/kept_points.h"
 #include "approx/slabs/width_space.h"
-#include "core/blocks.h"
 #include "core/growth/vertex_stars.h"
 #include "core/ids.h"
-#include "core/stopwatch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

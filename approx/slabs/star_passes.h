@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "approx/slabs/simplex_marks.h"
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

@@ -23,10 +23,10 @@
 #include "approx/slabs/product_bits_kernel.h"
 #include "approx/slabs/seed_planes.h"
 #include "approx/slabs/star_passes.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

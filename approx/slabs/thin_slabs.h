@@ -7,8 +7,8 @@
 
 #include "approx/slabs/dual_facets.h"
 #include "approx/slabs/width_space.h"
-#include "core/blocks.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 

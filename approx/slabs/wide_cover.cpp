@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "approx/slabs/slab_bits_kernel.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -20,7 +20,7 @@
 #include "approx/slabs/slab_growth.h"
 #include "approx/slabs/slab_seeds.h"
 #include "approx/slabs/width_space.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

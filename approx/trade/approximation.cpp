@@ -11,7 +11,7 @@
 #include "approx/trade/cluster_merge.h"
 #include "approx/trade/region_closing.h"
 #include "core/ids.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 
 namespace ndhull {
 namespace {

@@ -16,8 +16,8 @@
 #include "approx/slabs/star_hull.h"
 #include "approx/slabs/width_space.h"
 #include "approx/trade/region_closing.h"
-#include "core/blocks.h"
-#include "core/huge_array.h"
+#include "core/machine/blocks.h"
+#include "core/machine/huge_array.h"
 #include "core/search/point_tree.h"
 
 namespace ndhull {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

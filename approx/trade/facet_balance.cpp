@@ -9,10 +9,10 @@
 #include "approx/slabs/dual_facets.h"
 #include "approx/slabs/facet_parts.h"
 #include "approx/slabs/slab_growth.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

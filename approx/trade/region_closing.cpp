@@ -9,7 +9,7 @@
 
 #include "approx/geometry/boundedness.h"
 #include "approx/slabs/plane_fit.h"
-#include "core/column_table.h"
+#include "core/linear/column_table.h"
 
 namespace ndhull {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "approx/planes/plane_scan.h"
 #include "approx/verify/verify_facets.h"
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 
 namespace ndhull {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "approx/verify/verify_facets.h"
-#include "core/blocks.h"
 #include "core/exact_orientation.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

@@ -26,13 +26,13 @@
 #include <memory>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/error.h"
 #include "core/growth/growth.h"
 #include "core/growth/growth_region.h"
 #include "core/growth/phase_clock.h"
 #include "core/growth/sharing_choice.h"
-#include "core/team.h"
+#include "core/machine/blocks.h"
+#include "core/machine/team.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 
-#include "core/block_store.h"
-#include "core/blocks.h"
-#include "core/dense_solve.h"
 #include "core/error.h"
 #include "core/growth/staged_table.h"
+#include "core/linear/dense_solve.h"
+#include "core/machine/block_store.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

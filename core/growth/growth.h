@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "core/huge_array.h"
+#include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
+#include "core/machine/huge_array.h"
 #include "core/search/outside_heights.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/growth/growth_kernels.cpp"
 #include <hwy/foreach_target.h>

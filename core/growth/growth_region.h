@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/growth/growth.h"
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

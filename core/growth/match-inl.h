@@ -22,9 +22,9 @@
 
 #include <cstring>
 
-#include "core/chosen_lanes-inl.h"
 #include "core/growth/grower-inl.h"
 #include "core/growth/row_slots-inl.h"
+#include "core/machine/chosen_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

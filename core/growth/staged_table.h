@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 
 /// Rows of the stages before the last. A hull of a hundred simplices needs a few kilobytes, from the
 /// allocator; one of some thousand some hundred that lie close together and were used before
-/// (core/block_store.h). Where each of a dozen tables begins in small pages of its own, the system's work for
+/// (core/machine/block_store.h). Where each of a dozen tables begins in small pages of its own, the system's work for
 /// these was up to a third of growth.
 inline constexpr std::size_t kRowsOfStages[] = {512, 8192};
 

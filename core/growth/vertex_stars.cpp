@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

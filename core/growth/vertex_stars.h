@@ -18,7 +18,7 @@
 #include <optional>
 #include <span>
 
-#include "core/simplex_rows.h"
+#include "core/complex/simplex_rows.h"
 
 namespace ndhull {
 

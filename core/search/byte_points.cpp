@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/blocks.h"
 #include "core/error.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

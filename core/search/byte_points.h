@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 #include "core/search/point_tree.h"
 
 namespace ndhull {

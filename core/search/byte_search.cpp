@@ -1,8 +1,8 @@
 // Searches among points in bytes, compiled for each instruction set and chosen at run time.
 #include <cmath>
 
+#include "core/machine/simd_targets.h"
 #include "core/search/byte_points.h"
-#include "core/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/search/byte_search.cpp"
 #include <hwy/foreach_target.h>
@@ -13,9 +13,9 @@
 #include <array>
 #include <numeric>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 #ifndef NDHULL_BYTE_SEARCH_
 #define NDHULL_BYTE_SEARCH_

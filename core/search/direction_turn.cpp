@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/search/direction_turn.cpp"
 #include <hwy/foreach_target.h>

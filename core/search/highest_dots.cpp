@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/search/highest_dots.cpp"
 #include <hwy/foreach_target.h>
@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/chosen_lanes-inl.h"
 #include "core/dimension_switch.h"
+#include "core/machine/chosen_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/search/point_search.cpp"
 #include <hwy/foreach_target.h>
@@ -12,9 +12,9 @@
 
 #include <algorithm>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

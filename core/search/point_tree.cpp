@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/blocks.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/search/support.cpp"
 #include <hwy/foreach_target.h>

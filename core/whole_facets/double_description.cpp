@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 namespace ndhull {
 namespace {

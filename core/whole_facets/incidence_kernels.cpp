@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/whole_facets/incidence_kernels.cpp"
 #include <hwy/foreach_target.h>

@@ -1,5 +1,5 @@
 // Determinants of simplices whose planes are known, beside those that are solved.
-#include "core/determinants.h"
+#include "core/complex/determinants.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "tests/approximate/approximate_laws.h"
 #include "tests/hull/hull_support.h"
 

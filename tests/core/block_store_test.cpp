@@ -1,5 +1,5 @@
 // Blocks of the store: apart from each other, their contents kept, their memory used again.
-#include "core/block_store.h"
+#include "core/machine/block_store.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 namespace {

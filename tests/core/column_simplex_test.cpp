@@ -1,5 +1,5 @@
 // Linear programs with few rows: against all bases, closed forms, and the proofs that each end comes with.
-#include "core/column_simplex.h"
+#include "core/linear/column_simplex.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "core/column_table.h"
+#include "core/linear/column_table.h"
 #include "tests/support/named_polytopes.h"
 
 namespace ndhull {

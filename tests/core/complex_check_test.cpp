@@ -1,5 +1,5 @@
 // The witness of the complex finds each kind of damage, in a complex of which nothing else is wrong.
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

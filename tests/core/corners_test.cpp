@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 namespace {

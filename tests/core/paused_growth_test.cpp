@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "core/growth/growth.h"
 #include "tests/prepared_growth.h"
 #include "tools/points/rbox.h"

@@ -1,5 +1,5 @@
 // Teams: every block of every loop is done once, whoever comes late.
-#include "core/team.h"
+#include "core/machine/team.h"
 
 #include <gtest/gtest.h>
 

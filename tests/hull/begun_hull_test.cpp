@@ -7,7 +7,7 @@
 #include "approx/hull_builder.h"
 #include "approx/reduction/point_reduction.h"
 #include "approx/reduction/reduced_points.h"
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "tests/hull/hull_support.h"
 
 namespace ndhull {

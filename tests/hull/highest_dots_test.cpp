@@ -1,6 +1,6 @@
 #include "core/search/highest_dots.h"
 #include "core/id_rows.h"
-#include "core/plane_kernels.h"
+#include "core/search/plane_kernels.h"
 
 #include <gtest/gtest.h>
 

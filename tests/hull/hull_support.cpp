@@ -6,7 +6,7 @@
 #include <limits>
 #include <unordered_set>
 
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "core/portable_random.h"
 
 namespace ndhull {

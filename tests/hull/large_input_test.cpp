@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
 

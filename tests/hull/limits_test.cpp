@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stop_token>
 
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/error.h"
+#include "core/machine/blocks.h"
 #include "tools/io/npy_header.h"
 
 namespace ndhull {

@@ -9,7 +9,7 @@
 #include "approx/planes/contains.h"
 #include "approx/polytope/halfspace_intersection.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/named_outputs.h"

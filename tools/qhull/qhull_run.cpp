@@ -10,7 +10,7 @@
 #include "approx/joggle.h"
 #include "approx/verify/verify.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
+#include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/machine_memory.h"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/blocks.h"
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

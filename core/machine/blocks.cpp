@@ -1,4 +1,4 @@
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

@@ -1,10 +1,10 @@
-#include "core/column_table.h"
+#include "core/linear/column_table.h"
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/column_table.cpp"
+#define HWY_TARGET_INCLUDE "core/linear/column_table.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>

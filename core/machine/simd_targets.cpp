@@ -1,4 +1,4 @@
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 
 namespace ndhull {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/determinants.h"
+#include "core/complex/determinants.h"
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/determinants.cpp"
+#define HWY_TARGET_INCLUDE "core/complex/determinants.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>
@@ -14,10 +14,10 @@
 #include <numeric>
 #include <vector>
 
-#include "core/block_elimination-inl.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/linear/block_elimination-inl.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/blocks.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 

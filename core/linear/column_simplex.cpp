@@ -1,12 +1,12 @@
-#include "core/column_simplex.h"
+#include "core/linear/column_simplex.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/dense_solve.h"
-#include "core/dense_views.h"
 #include "core/error.h"
+#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
 
 namespace ndhull {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/membership_kernels.h"
+#include "core/complex/membership_kernels.h"
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/membership_kernels.cpp"
+#define HWY_TARGET_INCLUDE "core/complex/membership_kernels.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>
@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/block_elimination-inl.h"
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
+#include "core/linear/block_elimination-inl.h"
+#include "core/machine/blocks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

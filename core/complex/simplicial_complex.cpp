@@ -1,4 +1,4 @@
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 

@@ -1,4 +1,4 @@
-#include "core/huge_array.h"
+#include "core/machine/huge_array.h"
 
 #include <sys/mman.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "core/block_store.h"
+#include "core/machine/block_store.h"
 
 namespace ndhull {
 namespace {

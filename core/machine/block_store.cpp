@@ -1,4 +1,4 @@
-#include "core/block_store.h"
+#include "core/machine/block_store.h"
 
 #include <sys/mman.h>
 #include <sys/resource.h>

@@ -1,10 +1,10 @@
-#include "core/greedy_simplex.h"
+#include "core/linear/greedy_simplex.h"
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/greedy_simplex.cpp"
+#define HWY_TARGET_INCLUDE "core/linear/greedy_simplex.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>
@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/blocks.h"
-#include "core/huge_array.h"
+#include "core/machine/blocks.h"
+#include "core/machine/huge_array.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {

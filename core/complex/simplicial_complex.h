@@ -1,6 +1,6 @@
 // The growth complex: simplices with their vertices, neighbours and dual planes, in flat tables.
 //
-// Invariants (core/complex_check.h tests them)
+// Invariants (core/complex/complex_check.h tests them)
 //   * neighbour k of a simplex is opposite its vertex k, and shares the other rank-1 vertices;
 //   * the relation is symmetric and closed: no neighbour is none;
 //   * replacing a vertex never changes the order of the others, so the orientation of the vertex rows is
@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "core/huge_array.h"
 #include "core/ids.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

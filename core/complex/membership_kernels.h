@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/membership.h"
+#include "core/complex/membership.h"
 
 namespace ndhull {
 

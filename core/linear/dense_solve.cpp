@@ -1,4 +1,4 @@
-#include "core/dense_solve.h"
+#include "core/linear/dense_solve.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

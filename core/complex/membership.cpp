@@ -1,13 +1,13 @@
-#include "core/membership.h"
+#include "core/complex/membership.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/blocks.h"
-#include "core/dense_solve.h"
-#include "core/membership_kernels.h"
+#include "core/complex/membership_kernels.h"
+#include "core/linear/dense_solve.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {

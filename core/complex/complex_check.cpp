@@ -4,13 +4,13 @@
 // of some parity; the one that sorts the ridge opposite slot k, which stands in place p of the sorted row,
 // differs by k - p exchanges. So the orientation that a row induces on the ridge, (-1)^k times the parity of
 // the ridge, is the row's own parity times (-1)^p.
-#include "core/complex_check.h"
+#include "core/complex/complex_check.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "core/blocks.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {

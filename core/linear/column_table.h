@@ -1,5 +1,5 @@
 // Many short columns in an order that lets one product with all of them run at memory speed: the search of
-// core/column_simplex.h when the columns are at hand.
+// core/linear/column_simplex.h when the columns are at hand.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/column_simplex.h"
-#include "core/huge_array.h"
+#include "core/linear/column_simplex.h"
+#include "core/machine/huge_array.h"
 
 namespace ndhull {
 

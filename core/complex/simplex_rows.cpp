@@ -1,4 +1,4 @@
-#include "core/simplex_rows.h"
+#include "core/complex/simplex_rows.h"
 
 #include <algorithm>
 

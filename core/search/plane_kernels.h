@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/complex/simplicial_complex.h"
 #include "core/id_rows.h"
-#include "core/simplicial_complex.h"
 
 namespace ndhull {
 

@@ -37,7 +37,7 @@ class HugeArray {
       : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T)))),
         capacity_(capacity) {}
   /// An array that will not grow, whose elements may be anything until they are written: its memory is the
-  /// one that the table before it had (core/block_store.h).
+  /// one that the table before it had (core/machine/block_store.h).
   static HugeArray to_write(std::size_t size) {
     HugeArray array;
     array.data_ = static_cast<T*>(take_pages(bytes_for(size)));

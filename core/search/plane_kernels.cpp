@@ -1,10 +1,10 @@
-#include "core/plane_kernels.h"
+#include "core/search/plane_kernels.h"
 
 #include <cmath>
 
-#include "core/simd_targets.h"
+#include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/plane_kernels.cpp"
+#define HWY_TARGET_INCLUDE "core/search/plane_kernels.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target first.
 #include <hwy/highway.h>
@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/blocks.h"
 #include "core/dimension_switch.h"
-#include "core/prefetch.h"
+#include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 #include "core/search/highest_dots.h"
 
 HWY_BEFORE_NAMESPACE();

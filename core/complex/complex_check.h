@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/simplicial_complex.h"
+#include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
 

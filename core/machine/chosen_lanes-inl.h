@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "core/lane_orders.h"
+#include "core/machine/lane_orders.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
