@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/ids.h"
@@ -49,5 +50,13 @@ void check_extents(const Frame& frame);
 /// where the map is ill-conditioned (products and sums are compensated; Ogita, Rump, Oishi. Accurate sum and
 /// dot product. SISC 26(6), 2005).
 void map_points(const PointView& points, const Frame& frame, double* out);
+
+/// Normals in input coordinates of planes in the frame, not of unit length: each row of `out` is the sum of
+/// the map's rows times the numbers of a plane, with the error of one rounding, as map_points.
+///
+/// Shapes  planes: count x rank. columns: those of the map, dimension x rank. out: count x dimension; the
+///         same memory when rank equals dimension.
+void map_normals(const double* planes, std::size_t count, std::span<const double> columns, std::size_t rank,
+                 double* out);
 
 }  // namespace ndhull

@@ -1,6 +1,8 @@
-// Mapping the points into the frame. With a full map the sums are compensated, which needs fused
-// multiply-add to be fast: compiled for each instruction set, chosen at run time.
+// Mapping points into the frame, and planes out of it. With a full map the sums are compensated, which needs
+// fused multiply-add to be fast: compiled for each instruction set, chosen at run time.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
@@ -16,10 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-/// Sum of map[k] * offset[k] as if computed in twice the working precision and rounded once.
-HWY_INLINE double compensated_dot(const double* map, const double* offset, std::size_t count) {
+/// Sum of map[k] * (offset[k] + error[k]) as if computed in twice the working precision and rounded once.
+HWY_INLINE double compensated_dot(const double* map, const double* offset, const double* error,
+                                  std::size_t count) {
   double sum = 0.0, lost = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
+    lost += map[k] * error[k];
     const double product = map[k] * offset[k];
     const double product_error = __builtin_fma(map[k], offset[k], -product);
     const double next = sum + product;  // Knuth's two-sum
@@ -33,15 +37,32 @@ HWY_INLINE double compensated_dot(const double* map, const double* offset, std::
 void map_full(const PointView& points, const Frame& frame, double* out) {
   constexpr std::size_t kPointsInBlock = 4096;
   for_each_block(points.rows, kPointsInBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> offset(points.dimension);
+    std::vector<double> offset(points.dimension), error(points.dimension);
     for (std::size_t row = begin; row < end; ++row) {
-      for (std::size_t k = 0; k < points.dimension; ++k) offset[k] = points.at(row, k) - frame.centre[k];
+      for (std::size_t k = 0; k < points.dimension; ++k) {
+        // Of thin data entries of the map are so large that the rounding of a difference would count.
+        const double x = points.at(row, k), difference = x - frame.centre[k];
+        const double part = difference - x;
+        offset[k] = difference;
+        error[k] = (x - (difference - part)) - (frame.centre[k] + part);
+      }
       for (std::size_t r = 0; r < frame.rank; ++r) {
-        out[row * frame.rank + r] =
-            compensated_dot(frame.map.data() + r * points.dimension, offset.data(), points.dimension);
+        out[row * frame.rank + r] = compensated_dot(frame.map.data() + r * points.dimension, offset.data(),
+                                                    error.data(), points.dimension);
       }
     }
   });
+}
+
+void combine_rows(const double* weights, std::size_t count, std::size_t rank, const double* columns,
+                  std::size_t width, double* out) {
+  const std::vector<double> no_error(rank, 0.0);
+  std::vector<double> row(width);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < width; ++k)
+      row[k] = compensated_dot(columns + k * rank, weights + i * rank, no_error.data(), rank);
+    std::copy(row.begin(), row.end(), out + i * width);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -88,6 +109,11 @@ void map_points(const PointView& points, const Frame& frame, double* out) {
   } else {
     map_diagonal(static_cast<const float*>(points.data), points, frame, out);
   }
+}
+
+void map_normals(const double* planes, std::size_t count, std::span<const double> columns, std::size_t rank,
+                 double* out) {
+  NDHULL_BEST_OF(combine_rows)(planes, count, rank, columns.data(), columns.size() / rank, out);
 }
 
 }  // namespace ndhull

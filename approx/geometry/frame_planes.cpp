@@ -54,6 +54,16 @@ double normalise(double* row, std::size_t width) {
   return power * length;
 }
 
+/// Do sums of the map's rows lose more than some bits? The scale of a column changes nothing of that.
+bool cancels(RowMatrix map) {
+  constexpr double kMany = 1024.0;
+  for (Eigen::Index column = 0; column < map.cols(); ++column) {
+    const double largest = map.col(column).cwiseAbs().maxCoeff();
+    if (largest > 0.0) map.col(column) /= largest;
+  }
+  return !(SquareFactors(map * map.transpose()).reciprocal_condition() > 1.0 / (kMany * kMany));
+}
+
 }  // namespace
 
 NormalMap::NormalMap(const Frame& frame)
@@ -67,6 +77,10 @@ NormalMap::NormalMap(const Frame& frame)
     to_input = (to_input * basis.transpose() * gram.ldlt().solve(RowMatrix(basis))).eval();
   }
   to_input_.assign(to_input.data(), to_input.data() + to_input.size());
+  if (!is_diagonal_ && cancels(to_input)) {
+    const RowMatrix columns = to_input.transpose();
+    columns_.assign(columns.data(), columns.data() + columns.size());
+  }
   if (!is_diagonal_) return;
   for (std::size_t k = 0; k < dimension_; ++k) diagonal_.push_back(to_input_[k * dimension_ + k]);
 }
@@ -87,6 +101,14 @@ void NormalMap::map(const double* planes, std::size_t count, double* out, double
     if (dimension_ > kMaxRank) return scale_rows<0>(planes, count, out, lengths);
     return call_with_dimension<1, kMaxRank>(
         dimension_, [&](auto d) { scale_rows<decltype(d)::value>(planes, count, out, lengths); });
+  }
+  if (!columns_.empty()) {
+    map_normals(planes, count, columns_, rank_, out);
+    for (std::size_t row = 0; row < count; ++row) {
+      const double length = normalise<0>(out + row * dimension_, dimension_);
+      if (lengths != nullptr) lengths[row] = length;
+    }
+    return;
   }
   constexpr std::size_t kRows = 256;
   const auto to_input = as_rows(to_input_, dimension_);

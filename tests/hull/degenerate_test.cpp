@@ -36,6 +36,31 @@ INSTANTIATE_TEST_SUITE_P(HullRegression, NarrowInputs,
                                            "1000 C1,1e-13 D4 s", "1000 L100000 s G1e-16 D4",
                                            "10000 W1e-13 D4"));
 
+// The map into the frame has entries as large as the extent over the thickness, which cancel.
+TEST(HullRegression, ThinSlabsAcrossTheAxesHaveFacetsAsNarrowAsRoundingLetsThem) {
+  for (const double thickness : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    for (const std::size_t d : {3U, 4U, 5U, 6U}) {
+      SCOPED_TRACE(std::to_string(d) + "-d, thickness " + std::to_string(1e12 * thickness) + "e-12");
+      PortableRandom random(d);
+      std::size_t corners = 1;
+      for (std::size_t k = 1; k < d; ++k) corners *= 3;
+      PointSet set;
+      set.dimension = d;
+      for (std::size_t i = 0; i < 3 * corners; ++i) {  // a grid of three values, each corner three times
+        double sum = 0.0;
+        for (std::size_t k = 1, rest = i; k < d; ++k, rest /= 3) {
+          set.coordinates.push_back(static_cast<double>(rest % 3));
+          if (k < 3) sum += set.coordinates.back();
+        }
+        set.coordinates.push_back(sum + thickness * random.unit());
+      }
+      const Hull hull = hull_of(set);
+      expect_sound(hull, set);
+      EXPECT_LT(hull.max_facet_width, 1e-13);
+    }
+  }
+}
+
 TEST(HullRegression, WidthsBetweenRoundoffAndShiftLeaveNoPointOutside) {
   for (const char* width : {"0", "1e-16", "1e-15", "1e-14", "1e-12", "1e-11", "1e-10"}) {
     for (const char* shape : {"400 D4 W", "300 D5 W", "200 D6 W", "300 s Z1 D5 G"}) {
