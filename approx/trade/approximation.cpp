@@ -54,7 +54,6 @@ Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const
       has_run_out_before_(has_run_out_before) {}
 
 FacetClusters Approximation::run() {
-  hull_.chosen.width_asked = lengths_.width > 0.0 ? lengths_.width : lengths_.outside_width;
   if (accuracy_.facets > 0) return run_count();
   if (lengths_.width > 0.0) return run_width();
   grow_outside_width();

@@ -116,7 +116,7 @@ class Approximation {
   bool look_further(double width, Covering& covering);
   void look_for_fewer(double width, Covering& covering);
   void look_for_narrower(std::uint64_t count, CountSearch& search);
-  bool grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess);
+  void grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess);
   void locate_left_out(double outside_width);
   /// No point of the space is above any simplex's plane.
   bool is_convex() const {

@@ -247,11 +247,10 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
   for (int step = 0; step < kProbesWider && can_go_on(); ++step, width /= kProbeStep) probe(width, kHarder);
 }
 
-/// Growth for so many facets. True when it has added a vertex.
-bool Approximation::grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess) {
+/// Growth for so many facets.
+void Approximation::grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess) {
   const std::uint64_t most = std::min(std::max(kWorthGrowing, kSimplicesPerFacet * count), affordable_rows_);
   const std::uint64_t most_far = std::min(kMostWorthGrowing, affordable_rows_);
-  const std::uint64_t insertions = growth_.work().counters.insertions;
   const auto has_paused = [&](std::uint64_t enough, double height) {
     return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
   };
@@ -272,7 +271,6 @@ bool Approximation::grow_for_count(std::uint64_t count, double outside_width, co
     is_paused = has_paused(enough, HUGE_VAL);
   }
   locate_left_out(outside_width);
-  return growth_.work().counters.insertions > insertions;
 }
 
 /// Is it worth growing further for slabs that turned out so narrow?
@@ -359,16 +357,20 @@ FacetClusters Approximation::run_count() {
     const bool is_coarse = may_grow && !is_given && is_coarse_for(meant, outside_width);
     bool is_settled = widths.widest() <= std::max(1.002 * slab, flat()) || extra_.size() == known;
     width = slab;
+    const GrowthWork& work = growth_.work();
+    const std::uint64_t insertions = work.counters.insertions, rows = work.complex.row_count;
     if (is_coarse && growth_.furthest_height() == 0.0) {
       outside_width = growth_.work().options.outside_width = kShareForGrowth * meant;
       growth_.repair();
     }
     if (is_coarse || (may_grow && !offenders.above_simplices.empty())) {
       growth_.put_back(offenders.above_simplices);
-      if (grow_for_count(count, outside_width, {slab, slab})) {
-        search.narrowest = Covering{};  // rows are others now
-        is_settled = false;
-      }
+      grow_for_count(count, outside_width, {slab, slab});
+    }
+    // An insertion that was taken back may leave rows too.
+    if (work.counters.insertions > insertions || work.complex.row_count > rows) {
+      search.narrowest = Covering{};
+      is_settled = false;
     }
     if (!is_settled && !is_enough) continue;
     if (is_enough || is_better_search || slab <= flat()) break;
