@@ -45,12 +45,6 @@ Accuracy above_rounding(Accuracy accuracy, const ResolvedAccuracy& lengths, doub
   return accuracy;
 }
 
-bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width) {
-  constexpr double kSmall = 1e-6;
-  return max_facet_width > lengths.width && lengths.width > 0.0 &&
-         lengths.width <= kSmall * lengths.largest_extent;
-}
-
 double default_width_cap(double outside_width, double centrum_radius, double largest_extent) {
   if (centrum_radius == 0.0) return outside_width + 0.1 * largest_extent;
   return std::max(outside_width + 0.9 * centrum_radius, 6.5 * centrum_radius);

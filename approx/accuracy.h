@@ -56,6 +56,8 @@ double default_width_cap(double outside_width, double centrum_radius, double lar
 struct ResolvedAccuracy {
   double width = 0.0, outside_width = 0.0, centrum_radius = 0.0, width_cap = 0.0;
   double largest_extent = 0.0;
+
+  double width_asked() const { return width > 0.0 ? width : outside_width; }
 };
 ResolvedAccuracy resolve(const Accuracy& accuracy, const Frame& frame, const LengthUnit& unit);
 
@@ -65,10 +67,6 @@ void check_facet_target(const Accuracy& accuracy, std::size_t rank);
 /// The same without widths that growth, which may shift points by `shift` [ratio], cannot tell from 0: the
 /// exact hull, whose facets are as narrow as rounding lets them, is what they ask for.
 Accuracy above_rounding(Accuracy accuracy, const ResolvedAccuracy& lengths, double shift);
-
-/// Is a hull that is wider than was asked for to be compared with the exact one? For widths so small that
-/// both take about as long.
-bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width);
 
 /// Throws Error kOutOfRange where simplices are gathered into facets and depths, which are kept in single
 /// precision, would not be finite.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "approx/exact_instead.h"
 #include "approx/facets/coplanar_merge.h"
 #include "approx/facets/described_hull.h"
 #include "approx/facets/exact_facets.h"
@@ -13,7 +14,6 @@
 #include "approx/facets/regrown_simplices.h"
 #include "approx/geometry/frame_planes.h"
 #include "approx/growth/certified_growth.h"
-#include "approx/hull.h"
 #include "approx/selection/volume_cover.h"
 #include "approx/trade/approximation.h"
 #include "core/error.h"
@@ -64,10 +64,11 @@ class HullBuilder {
     const Accuracy& accuracy = options_.accuracy;
     check_facet_target(accuracy, frame_.rank);
     const ResolvedAccuracy lengths = resolve(accuracy, frame_, hull_.length_unit_);
+    hull_.chosen.width_asked = lengths.width_asked();
     const Accuracy kept = above_rounding(accuracy, lengths, options_.shift);
     if (kept.width.is_set() != accuracy.width.is_set() ||
         kept.outside_width.is_set() != accuracy.outside_width.is_set())
-      return with(kept, lengths);
+      return with(kept, lengths, options_.limits.max_facets);
     const bool is_exact = accuracy.is_exact() || accuracy.is_for_volume() || frame_.rank == 1;
     std::vector<double> factor;
     if (!is_exact) factor = gradient_factor(frame_, hull_.length_unit_);
@@ -105,9 +106,9 @@ class HullBuilder {
     if (hull_.layout_.simplicial < hull_.layout_.facets) known = {};  // facets are no longer the rows
     make_facets(known);
     seconds(Phase::kMerge) += seconds_since(merge_start);
-    if (hull_.status == HullStatus::kComplete && is_missed(lengths, hull_.max_facet_width)) {
-      Hull exact = with(Accuracy(), lengths);
-      if (exact.max_facet_width < hull_.max_facet_width) return exact;
+    if (const auto most = simplices_of_exact(hull_, growth_->work(), options_, lengths)) {
+      Hull exact = with(Accuracy(), lengths, *most);
+      if (is_exact_better(exact, hull_, accuracy, lengths)) return exact;
     }
     return std::move(hull_);
   }
@@ -131,8 +132,8 @@ class HullBuilder {
     hull_.subspace_equations = find_subspace_equations(frame_);
   }
 
-  /// Grows as far as the accuracy asks for and finds the facets. False: memory has ended growth, and there is
-  /// another way: without the complex there is room for rows of vertices.
+  /// Grows as far as the accuracy asks for and finds the facets. False: memory has ended growth, and without
+  /// the complex there is room for rows of vertices.
   bool approximate(const std::vector<double>& factor) {
     const Clock::time_point begin = Clock::now();
     const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
@@ -201,11 +202,12 @@ class HullBuilder {
   }
 
   /// Less than what was asked for, which is what the report compares widths with.
-  Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths) {
+  Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets) {
     HullOptions options = options_;
     options.accuracy = accuracy;
+    options.limits.max_facets = max_facets;
     Hull hull = again(options);
-    hull.chosen.width_asked = lengths.width > 0.0 ? lengths.width : lengths.outside_width;
+    hull.chosen.width_asked = lengths.width_asked();
     return hull;
   }
 

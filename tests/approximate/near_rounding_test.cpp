@@ -2,6 +2,8 @@
 // facets that the exact hull keeps.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "tests/approximate/approximate_laws.h"
@@ -62,6 +64,68 @@ TEST(NearRoundingLaw, ANumberThatTheExactHullKeepsGivesIt) {
       }
     }
   }
+}
+
+/// All pairs of a point of one set and a point of the other.
+PointSet product(const PointSet& left, const PointSet& right) {
+  PointSet set;
+  set.dimension = left.dimension + right.dimension;
+  const auto add = [&](const PointSet& from, std::size_t row) {
+    const auto first = from.coordinates.begin() + static_cast<std::ptrdiff_t>(row * from.dimension);
+    set.coordinates.insert(set.coordinates.end(), first, first + static_cast<std::ptrdiff_t>(from.dimension));
+  };
+  for (std::size_t i = 0; i < left.coordinates.size() / left.dimension; ++i) {
+    for (std::size_t j = 0; j < right.coordinates.size() / right.dimension; ++j) {
+      add(left, i);
+      add(right, j);
+    }
+  }
+  return set;
+}
+
+PointSet polygon(int corners) {
+  PointSet set;
+  set.dimension = 2;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.05 * (i % 3)) / corners;
+    set.coordinates.insert(set.coordinates.end(), {std::cos(angle), 1.3 * std::sin(angle)});
+  }
+  return set;
+}
+
+// Each facet of a product of polytopes has the vertices of all of one factor: slabs need not find these.
+TEST(NearRoundingLaw, ProductsOfPolytopesHaveNoMoreFacetsThanTheExactHullAndNoWiderOnes) {
+  const PointSet simplex = family_points(PointFamily::kGaussian, 5, 4, 3);
+  const PointSet interval{1, {0.0, 1.0, 2.0}, ""}, box = product({1, {0.0, 1.7}, ""}, interval);
+  const PointSet polygons = product(product(polygon(5), box), product(polygon(5), polygon(3)));
+  for (const PointSet& set : {product(simplex, simplex), polygons}) {
+    const Hull exact = hull_of(set);
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      SCOPED_TRACE(std::to_string(set.dimension) + "-d, seed " + std::to_string(seed));
+      for (const std::uint64_t more : {0u, 1u, 6u}) {
+        HullOptions options{.seed = seed};
+        options.accuracy.facets = exact.facet_count() + more;
+        const Hull hull = hull_of(set, options);
+        EXPECT_LT(hull.max_facet_width, 1e-11) << more;
+        EXPECT_LE(hull.facet_count(), options.accuracy.facets);
+        EXPECT_EQ(hull.points_outside, 0U);
+      }
+      for (const double percent : {1.0, 10.0, 12.0, 20.0, 30.0, 40.0}) {
+        HullOptions options{.seed = seed};
+        options.accuracy.width = {percent, true};
+        const Hull hull = hull_of(set, options);
+        EXPECT_LE(hull.facet_count(), exact.facet_count()) << percent;
+        EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set)) << percent;
+      }
+    }
+  }
+}
+
+TEST(NearRoundingLaw, ASegmentsWidthIsComparedWithTheOneAskedFor) {
+  const PointSet segment{2, {0.0, 0.0, 1.0, 2.0, 0.25, 0.5}, ""};
+  HullOptions options;
+  options.accuracy.width = {5.0, true};
+  EXPECT_EQ(hull_of(segment, options).chosen.width_asked, 0.05 * 2.0);
 }
 
 // Clusters of integers far apart: the slabs of a width near what rounding leaves are wider than the hull's own

@@ -1,0 +1,52 @@
+#include "approx/exact_instead.h"
+
+#include <algorithm>
+
+namespace ndhull {
+namespace {
+
+/// Is a hull that is wider than was asked for to be compared with the exact one? For widths so small that
+/// both take about as long.
+bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width) {
+  constexpr double kSmall = 1e-6;
+  return max_facet_width > lengths.width && lengths.width > 0.0 &&
+         lengths.width <= kSmall * lengths.largest_extent;
+}
+
+/// Have so many points been shifted that facets share them by the dozen?
+bool shares_planes(const GrowthWork& work) {
+  return 4 * work.shifted_points.size() >= work.counters.insertions && !work.shifted_points.empty();
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> simplices_of_exact(const Hull& hull, const GrowthWork& work,
+                                                const HullOptions& options, const ResolvedAccuracy& lengths) {
+  constexpr std::uint64_t kTimesMore = 4, kSmall = 100'000;
+  constexpr std::size_t kFew = 1024;
+  constexpr double kRounding = 4.0;
+  const Accuracy& accuracy = options.accuracy;
+  if (hull.status != HullStatus::kComplete || accuracy.is_exact() || accuracy.is_for_volume()) return {};
+  if (is_missed(lengths, hull.max_facet_width)) return options.limits.max_facets;
+  const bool is_target = accuracy.facets > 0 || lengths.width > 0.0;
+  if (!is_target || accuracy.merges_neighbours() || !shares_planes(work)) return {};
+  if (options.limits.max_memory_bytes > 0 || options.limits.max_facets > 0) return {};
+  if (accuracy.facets == 0 && hull.facet_count() > kFew) return {};
+  // It is the best there can be already.
+  if (hull.facet_count() == hull.rank + 1) return {};
+  if (accuracy.facets > 0 && hull.max_facet_width <= kRounding * hull.roundoff) return {};
+  return kSmall + kTimesMore * hull.simplex_count();
+}
+
+bool is_exact_better(const Hull& exact, const Hull& hull, const Accuracy& accuracy,
+                     const ResolvedAccuracy& lengths) {
+  if (exact.status != HullStatus::kComplete) return false;
+  if (accuracy.facets > 0 && exact.facet_count() > accuracy.facets) return false;
+  const bool keep_width =
+      lengths.width > 0.0 && std::max(exact.max_facet_width, hull.max_facet_width) <= lengths.width;
+  if (keep_width && exact.facet_count() != hull.facet_count())
+    return exact.facet_count() < hull.facet_count();
+  return exact.max_facet_width < hull.max_facet_width;
+}
+
+}  // namespace ndhull
