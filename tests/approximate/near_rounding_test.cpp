@@ -83,12 +83,15 @@ PointSet product(const PointSet& left, const PointSet& right) {
   return set;
 }
 
-PointSet polygon(int corners) {
+/// With five corners: regular, or without symmetry.
+PointSet polygon(bool is_regular) {
   PointSet set;
   set.dimension = 2;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + 0.05 * (i % 3)) / corners;
-    set.coordinates.insert(set.coordinates.end(), {std::cos(angle), 1.3 * std::sin(angle)});
+  for (const int turn : {0, 1, 3, 2, 1}) {
+    const double corner = static_cast<double>(set.rows()) + (is_regular ? 0.0 : 0.1 * turn);
+    const double angle = 2.0 * std::numbers::pi * corner / 5.0;
+    set.coordinates.insert(set.coordinates.end(),
+                           {std::cos(angle), (is_regular ? 1.0 : 1.3) * std::sin(angle)});
   }
   return set;
 }
@@ -97,7 +100,8 @@ PointSet polygon(int corners) {
 TEST(NearRoundingLaw, ProductsOfPolytopesHaveNoMoreFacetsThanTheExactHullAndNoWiderOnes) {
   const PointSet simplex = family_points(PointFamily::kGaussian, 5, 4, 3);
   const PointSet interval{1, {0.0, 1.0, 2.0}, ""}, box = product({1, {0.0, 1.7}, ""}, interval);
-  const PointSet polygons = product(product(polygon(5), box), product(polygon(5), polygon(3)));
+  const PointSet triangle{2, {0.0, 0.0, 1.0, 0.0, 0.0, 1.0}, ""};
+  const PointSet polygons = product(product(polygon(false), box), product(polygon(true), triangle));
   for (const PointSet& set : {product(simplex, simplex), polygons}) {
     const Hull exact = hull_of(set);
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
