@@ -358,6 +358,10 @@ def test_summary_options_and_joggle():
         for text, qhulls in ((mine.stdout, other.stdout), (mine.stderr, other.stderr)):
             assert ("Number of vertices: 8\n" in text) == (b"Number of vertices: 8\n" in qhulls), options
     assert ours("FQ", points) == "rbox c D3 | qhull FQ\n"
+    printed = run("qhull", "FQ p", stdin=points).stdout.encode()
+    for text in (b"my points\n" + points, points + b"my points\n", printed):
+        assert ours("Fx", text) == ours("Fx", points)
+    assert ours("FQ", b"my points \n" + points) == "my points | qhull FQ\n"
     joggled = run("qhull", "QJ1e-6 TR50 s Fs Tv", stdin=points)
     assert "Input joggled by: 1e-06\n" in joggled.stderr and "precision errors: 0.0\n" in joggled.stderr
     counts, widths = (numbers(line) for line in joggled.stdout.splitlines())

@@ -26,6 +26,35 @@ TEST(QhullTextExample, DimensionWithCommentThenCountThenFreeFormCoordinates) {
   expect_points("\n# comment\n3\r\n2\r\n1 2 3\r\n4 5 6\r\n", 3, {1, 2, 3, 4, 5, 6});
 }
 
+TEST(QhullTextExample, TextIsACommentToTheEndOfItsLineWhereQhullTakesItForOne) {
+  const Values values{1, 2, 3, 4, 5, 6};
+  for (const char* content :
+       {"my points here\n3\n2\n1 2 3\n4 5 6\n", "points\n3\n2\n1 2 3\n4 5 6\n",
+        "rbox 2 D3 | qhull FQ p\n3\n2\n1 2 3\n4 5 6\n", "mine\nof 2024\n3\n2\n1 2 3\n4 5 6\n",
+        "my 2 points\n3 2\n1 2 3\n4 5 6\n", "my points\n3 2\n1 2 3\n4 5 6\n",
+        "-- points --\n3 of D3\nhow many:\n2 points\nrows:\n1 2 3 first\n4 5\n6 end\n",
+        "3\nmine\n2\n1 2 3\n4 5 6\n", "3\n2\n1 2 3\n4 5 6\nend of it, 7 8\n"}) {
+    expect_points(content, 3, values);
+  }
+}
+
+TEST(QhullTextExample, ACommentWhereANumberIsMissingIsNone) {
+  expect_refused(ErrorCode::kBadNumber, "line 4: column 2: found \"x\"", "3\n2\n1 2 3\n4 x 6\n");
+  expect_refused(ErrorCode::kBadNumber, "line 3: column 1: found \"x\"", "3\n2\nx 2 3\n4 5 6\n");
+  expect_refused(ErrorCode::kBadNumber, "line 5: column 1: found \"NA\"", "mine\n3\n2\n1 2 3\nNA NA NA\n");
+  expect_refused(ErrorCode::kNotFinite, "line 4: column 2", "3\n2\n1 2 3\n4 nan 6\n");
+  expect_refused(ErrorCode::kWrongCount, "found 3 numbers", "my points\n3\n2\n1 2 3\n");
+  expect_refused(ErrorCode::kWrongCount, "found 6 numbers", "3\n3\n1 2 3\n4 5 6\nend of it\nindeed\n");
+}
+
+TEST(TableExample, NamesAboveIntegersAreNoCommentOfQhulls) {
+  expect_points("x\n3\n2\n1\n5\n6\n7\n1\n", 1, {3, 2, 1, 5, 6, 7, 1});
+  expect_points("x y\n2 3\n1 2\n3 4\n5 6\n", 2, {2, 3, 1, 2, 3, 4, 5, 6});
+  expect_points("x y\n1 2\n3 4\n", 2, {1, 2, 3, 4});
+  EXPECT_EQ(rows_of(parse("x y name\n1 2 a\n3 4 b\n", "points.txt", ColumnChoice("x,y")).view()),
+            (Values{1, 2, 3, 4}));
+}
+
 TEST(QhullTextExample, CountBeforeDimensionIsReadWhenTheLinesSaySo) {
   expect_points("4\n2\n1 2\n3 4\n5 6\n7 8\n", 2, {1, 2, 3, 4, 5, 6, 7, 8});
   expect_points("4 2\n1 2\n3 4\n5 6\n7 8\n", 2, {1, 2, 3, 4, 5, 6, 7, 8});

@@ -49,15 +49,16 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
 /// A point in front of the halfspaces: "d 1" on one line, d numbers, and more behind them. Returns the
 /// place behind the point, or null when there is none.
 const char* read_interior_point(const TextSource& source, std::vector<double>& point) {
-  const char* const start = skip_empty_lines(source, source.begin());
+  const char* const start = skip_comment_lines(source, source.begin());
   const IntegerLine header = read_integer_line(source, start);
   if (header.count != 2 || header.value[1] != 1 || header.text_is_number) return nullptr;
   const std::size_t dimension = header.value[0];
   const char* place = header.next;
-  while (point.size() < dimension && (place = skip_empty_lines(source, place)) != source.end()) {
-    read_number_line(source, place, point);
+  while (point.size() < dimension && (place = skip_comment_lines(source, place)) != source.end()) {
+    const char* comment = nullptr;
+    read_number_line(source, place, point, &comment);
   }
-  const bool has_more = skip_empty_lines(source, place) != source.end();
+  const bool has_more = skip_comment_lines(source, place) != source.end();
   // "5 1" and five numbers alone are one halfspace in dimension 4.
   return point.size() == dimension && has_more ? place : nullptr;
 }
@@ -78,7 +79,7 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
     table = read_number_text(TextSource(source.name(), text), extension);
     if (point.size() + 1 != table.columns) {
       source.fail(
-          ErrorCode::kBadHeader, skip_empty_lines(source, source.begin()),
+          ErrorCode::kBadHeader, skip_comment_lines(source, source.begin()),
           fmt::format(
               "found a point in dimension {} before halfspaces of {} columns, expected {}; correct one",
               point.size(), table.columns, point.size() + 1));

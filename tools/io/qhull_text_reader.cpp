@@ -1,5 +1,6 @@
 // A header of two integers is also how a table of integers may begin. The lines decide: Qhull's integers
-// stand alone on their lines, or the numbers that follow are as many as they announce.
+// stand alone on their lines, or the numbers that follow are as many as they announce. As for Qhull, a word
+// that begins like no number makes the rest of its line a comment: only the count tells that none is missing.
 #include "tools/io/qhull_text_reader.h"
 
 #include <fmt/format.h>
@@ -17,12 +18,41 @@ std::size_t count_words(const TextSource& source, const char* place) {
   while (place != source.end()) {
     const char* const end = source.line_end(place);
     for (const char* at = skip_blanks(place, end); at != end && *at != '#'; at = skip_blanks(at, end)) {
+      if (!begins_like_number(at, end)) break;
       ++words;
       while (at != end && !is_blank(*at)) ++at;
     }
     place = end == source.end() ? end : end + 1;
   }
   return words;
+}
+
+/// Lines of text before a header, which could also be the names of a table's columns.
+struct Preface {
+  std::size_t lines = 0;
+  std::size_t words = 0;  ///< of its last line
+};
+
+Preface read_preface(const TextSource& source, const char* header) {
+  Preface preface;
+  for (const char* at = source.begin(); (at = skip_empty_lines(source, at)) != header;) {
+    const char* const end = source.line_end(at);
+    ++preface.lines;
+    preface.words = 0;
+    for (at = skip_blanks(at, end); at != end; at = skip_blanks(at, end)) {
+      ++preface.words;
+      while (at != end && !is_blank(*at)) ++at;
+    }
+    if (end != source.end()) at = end + 1;
+  }
+  return preface;
+}
+
+/// Numbers of the first line behind `place` that has some.
+std::size_t first_length(const TextSource& source, const char* place) {
+  place = skip_comment_lines(source, place);
+  return count_words(
+      TextSource(source.name(), {place, static_cast<std::size_t>(source.line_end(place) - place)}), place);
 }
 
 std::optional<std::size_t> product(std::size_t a, std::size_t b) {
@@ -35,6 +65,7 @@ std::optional<std::size_t> product(std::size_t a, std::size_t b) {
 /// number is missing.
 struct LineShape {
   std::size_t lines = 0;
+  std::size_t comment_lines = 0;
   std::size_t first_length = 0;
   bool uniform = true;
 };
@@ -43,22 +74,38 @@ struct LineShape {
 struct OddLine {
   const char* place = nullptr;
   std::size_t length = 0;
+  const char* text = nullptr;  ///< the comment in it
 };
 
 OddLine find_odd_line(const TextSource& source, const char* place, std::size_t columns) {
   std::vector<double> values;
-  while ((place = skip_empty_lines(source, place)) != source.end()) {
-    const char* const line = place;
+  while ((place = skip_comment_lines(source, place)) != source.end()) {
+    OddLine line{.place = place};
     values.clear();
-    const std::size_t length = read_number_line(source, place, values);
-    if (length != columns) return {line, length};
+    line.length = read_number_line(source, place, values, &line.text);
+    if (line.length != columns) return line;
   }
   return {};
+}
+
+/// The first line that is a comment and no empty one.
+const char* find_comment_line(const TextSource& source, const char* place) {
+  while ((place = skip_empty_lines(source, place)) != source.end()) {
+    const char* const end = source.line_end(place);
+    const char* const text = skip_blanks(place, end);
+    if (!begins_like_number(text, end)) return text;
+    place = end == source.end() ? end : end + 1;
+  }
+  return nullptr;
 }
 
 [[noreturn]] void fail_count(const TextSource& source, const char* data, const LineShape& shape,
                              std::size_t dimension, std::size_t count, std::size_t found) {
   const OddLine odd = find_odd_line(source, data, dimension);
+  // The comment may have been meant as a number.
+  if (odd.text != nullptr) source.fail_number(odd.text, odd.length + 1);
+  if (shape.comment_lines > 0 && shape.lines + shape.comment_lines == count && found < dimension * count)
+    source.fail_number(find_comment_line(source, data), 1);
   if (odd.place != nullptr && shape.lines == count) {
     source.fail(
         ErrorCode::kRaggedRow, odd.place,
@@ -86,6 +133,15 @@ const char* skip_empty_lines(const TextSource& source, const char* place) {
   return place;
 }
 
+const char* skip_comment_lines(const TextSource& source, const char* place) {
+  while ((place = skip_empty_lines(source, place)) != source.end()) {
+    const char* const end = source.line_end(place);
+    if (begins_like_number(skip_blanks(place, end), end)) return place;
+    place = end == source.end() ? end : end + 1;
+  }
+  return place;
+}
+
 IntegerLine read_integer_line(const TextSource& source, const char* place) {
   IntegerLine line;
   const char* const end = source.line_end(place);
@@ -95,12 +151,7 @@ IntegerLine read_integer_line(const TextSource& source, const char* place) {
     const char* const stop = parse_count(at, end, value);
     if (stop == nullptr || (stop != end && !is_blank(*stop))) {
       line.has_text = true;
-      const char* word_end = at;
-      while (word_end != end && !is_blank(*word_end)) ++word_end;
-      // "33 ,28" is a row of a table, whatever stands behind the comma.
-      const bool separates = *at == ',' || *at == ';';
-      line.text_is_number = separates || is_digit(*at) || *at == '-' || *at == '+' || *at == '.' ||
-                            names_non_finite({at, static_cast<std::size_t>(word_end - at)});
+      line.text_is_number = begins_like_number(at, end);
       break;
     }
     if (line.count < 2) line.value[line.count] = value;
@@ -112,27 +163,39 @@ IntegerLine read_integer_line(const TextSource& source, const char* place) {
 }
 
 bool looks_like_qhull_text(const TextSource& source) {
-  const char* const start = skip_empty_lines(source, source.begin());
+  const char* const start = skip_comment_lines(source, source.begin());
   if (start == source.end()) return false;
+  const Preface preface = read_preface(source, start);
   const IntegerLine first = read_integer_line(source, start);
   if (first.text_is_number) return false;
-  if (first.count == 1 && first.has_text) return true;  // "5 rbox 1000 D5"
+  const auto is_announced = [&source](std::size_t dimension, std::size_t count, const char* data) {
+    const auto announced = product(dimension, count);
+    return announced.has_value() && *announced > 0 && *announced == count_words(source, data);
+  };
   if (first.count == 1) {
-    const char* const second_start = skip_empty_lines(source, first.next);
-    if (second_start == source.end())
-      return true;  // a dimension and no more: the reader says what is missing
+    if (first.has_text && preface.lines == 0) return true;  // "5 rbox 1000 D5"
+    const char* const below = skip_empty_lines(source, first.next);
+    const char* const second_start = skip_comment_lines(source, below);
+    // A dimension and no more: the reader says what is missing.
+    if (second_start == source.end()) return preface.lines == 0 && below == second_start;
     const IntegerLine second = read_integer_line(source, second_start);
-    return second.count == 1 && !second.text_is_number;
+    if (second.count != 1 || second.text_is_number) return false;
+    if (preface.lines == 0 && below == second_start) return true;
+    // Text may also be what a table has in another column, or the name of its only one.
+    const std::size_t length = first_length(source, second.next);
+    if (preface.lines == 1 && preface.words == 1 && length <= 1) return false;
+    const bool alone = !first.has_text && !second.has_text;
+    return (alone && length > 1) || is_announced(first.value[0], second.value[0], second.next);
   }
   if (first.count != 2) return false;
-  if (first.has_text) return true;
-  const auto announced = product(first.value[0], first.value[1]);
-  return announced.has_value() && *announced > 0 && *announced == count_words(source, first.next);
+  if (preface.lines == 0) return first.has_text || is_announced(first.value[0], first.value[1], first.next);
+  const bool is_table = preface.lines == 1 && preface.words == 2 && first_length(source, first.next) == 2;
+  return !is_table && !first.has_text && is_announced(first.value[0], first.value[1], first.next);
 }
 
 NumberTable read_qhull_text(const TextSource& source) {
   source.require_content();
-  const char* const start = skip_empty_lines(source, source.begin());
+  const char* const start = skip_comment_lines(source, source.begin());
   const IntegerLine first = read_integer_line(source, start);
   if (first.count == 0) {
     source.fail(ErrorCode::kBadHeader, start,
@@ -143,7 +206,7 @@ NumberTable read_qhull_text(const TextSource& source) {
   std::size_t count = first.value[1];
   const char* data = first.next;
   if (first.count == 1) {
-    const char* const second_start = skip_empty_lines(source, data);
+    const char* const second_start = skip_comment_lines(source, data);
     const IntegerLine second = read_integer_line(source, second_start);
     if (second.count != 1) {
       source.fail(ErrorCode::kBadHeader, second_start,
@@ -173,7 +236,12 @@ NumberTable read_qhull_text(const TextSource& source) {
   table.values.reserve(std::min(*announced, static_cast<std::size_t>(source.end() - data) / 2 + 1));
   LineShape shape;
   for (const char* place = data; (place = skip_empty_lines(source, place)) != source.end();) {
-    const std::size_t length = read_number_line(source, place, table.values);
+    const char* comment = nullptr;
+    const std::size_t length = read_number_line(source, place, table.values, &comment);
+    if (length == 0 && comment != nullptr) {
+      ++shape.comment_lines;
+      continue;
+    }
     if (shape.lines++ == 0) shape.first_length = length;
     shape.uniform = shape.uniform && length == shape.first_length;
   }

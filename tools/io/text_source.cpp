@@ -83,6 +83,20 @@ bool names_non_finite(std::string_view text) {
          word.starts_with("1.#in") || word.starts_with("1.#qnan") || word.starts_with("1.#snan");
 }
 
+bool begins_like_number(const char* place, const char* end) {
+  const char* word_end = place;
+  while (word_end != end && !is_blank(*word_end)) ++word_end;
+  if (names_non_finite({place, static_cast<std::size_t>(word_end - place)})) return true;
+  const char* at = place;
+  if (at != word_end && *at == '"') ++at;
+  if (at == word_end) return false;
+  // "33 ,28" is a row of a table, whatever stands behind the comma.
+  if (*at == ',' || *at == ';' || is_digit(*at)) return true;
+  if (*at != '-' && *at != '+' && *at != '.') return false;
+  ++at;
+  return at == word_end || is_digit(*at) || *at == '.';
+}
+
 std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 40;  // a message is one line
   std::string shown(text.substr(0, kLongest));
@@ -106,14 +120,19 @@ const char* parse_count(const char* place, const char* end, std::size_t& value) 
   return error == std::errc{} ? stop : nullptr;
 }
 
-std::size_t read_number_line(const TextSource& source, const char*& place, std::vector<double>& values) {
+std::size_t read_number_line(const TextSource& source, const char*& place, std::vector<double>& values,
+                             const char** comment) {
   const char* const end = source.line_end(place);
   std::size_t count = 0;
   const char* at = skip_blanks(place, end);
   while (at != end && *at != '#') {
     double value = 0.0;
     const char* stop = parse_number(at, end, value);
-    if (stop == nullptr || (stop != end && !is_blank(*stop))) source.fail_number(at, count + 1);
+    if (stop == nullptr || (stop != end && !is_blank(*stop))) {
+      if (comment == nullptr || begins_like_number(at, end)) source.fail_number(at, count + 1);
+      *comment = at;
+      break;
+    }
     values.push_back(value);
     ++count;
     at = skip_blanks(stop, end);

@@ -56,6 +56,10 @@ inline bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 /// Is `text` a spelling of NaN or infinity (nan, -inf, Infinity, 1.#IND, ...), in quotes or not?
 bool names_non_finite(std::string_view text);
 
+/// Is the word at `place` meant as a number, if perhaps a damaged one? Digits behind a quote, a sign or a point,
+/// a lone sign, a separator, and the spellings of NaN and infinity are; other words are text.
+bool begins_like_number(const char* place, const char* end);
+
 /// `text` for a one-line message: cut at 40 characters, control characters as question marks.
 std::string printable(std::string_view text);
 
@@ -70,7 +74,9 @@ const char* parse_number(const char* place, const char* end, double& value);
 const char* parse_count(const char* place, const char* end, std::size_t& value);
 
 /// Reads all blank-separated numbers of the line at `place` to the back of `values`; # starts a comment.
-/// Returns how many; `place` moves to the start of the next line (or the end).
-std::size_t read_number_line(const TextSource& source, const char*& place, std::vector<double>& values);
+/// Returns how many; `place` moves to the start of the next line (or the end). With `comment`, so does a word
+/// that begins like no number, and its place is put there; without, it is an error.
+std::size_t read_number_line(const TextSource& source, const char*& place, std::vector<double>& values,
+                             const char** comment = nullptr);
 
 }  // namespace ndhull

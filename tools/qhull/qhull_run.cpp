@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <cctype>
 #include <cstdio>
 #include <utility>
 
@@ -20,6 +21,7 @@
 #include "tools/io/output_file.h"
 #include "tools/io/point_reader.h"
 #include "tools/io/qhull_formats.h"
+#include "tools/io/text_source.h"
 #include "tools/qhull/qhull_scaling.h"
 #include "tools/qhull/qhull_selection.h"
 #include "tools/qhull/qhull_summary.h"
@@ -108,7 +110,11 @@ void print_all(const QhullPrint& print, const QhullCommand& command, const Qhull
 std::string invocation_of(std::string_view input, const QhullCommand& command) {
   const std::string_view line = input.substr(0, input.find('\n'));
   std::string_view comment;
-  if (const std::size_t digits = line.find_first_not_of("0123456789"); digits != 0 && digits < line.size()) {
+  // The line of text above the numbers, or what stands behind the first of them. An array is no text.
+  const bool is_text = !line.empty() && std::isprint(static_cast<unsigned char>(line.front())) != 0 &&
+                       !begins_like_number(line.data(), line.data() + line.size());
+  const std::size_t digits = line.find_first_not_of("0123456789");
+  if (digits < line.size() && (digits > 0 || is_text)) {
     comment = line.substr(digits);
     comment.remove_prefix(std::min(comment.find_first_not_of(" \t\r"), comment.size()));
     while (!comment.empty() && (comment.back() == '\r' || comment.back() == ' ')) comment.remove_suffix(1);
