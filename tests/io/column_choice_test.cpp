@@ -53,6 +53,24 @@ TEST(ColumnChoiceExample, FilesThatAreNumbersThroughout) {
   expect_chosen(array, "3,1", {5, 1, 6, 2}, {}, "points.npy");
 }
 
+TEST(ColumnChoiceExample, NamesThatAreNumbers) {
+  expect_chosen("\"name\",\"1\",\"2\"\na,3,4\n", "2-3", {3, 4}, {"1", "2"});
+  expect_chosen("\"1\",\"2\",\"3\"\n3,4,5\n", "3,1", {5, 3}, {"3", "1"});
+  expect_not_chosen(ErrorCode::kUsage, "found \"1\", the name of column 2 and the number of another",
+                    "\"0\",\"1\"\n3,4\n", "1");
+  expect_not_chosen(ErrorCode::kUsage, "write 2-2 or 1-1", "\"0\",\"1\"\n3,4\n", "1");
+  expect_chosen("\"0\",\"1\"\n3,4\n", "1-1", {3}, {"0"});
+}
+
+TEST(ColumnChoiceRefused, ANameThatSeveralColumnsHave) {
+  expect_not_chosen(ErrorCode::kUsage, "found \"x\", the name of columns 1 and 3", "x,y,x\n1,2,3\n", "y,x");
+  expect_chosen("x,y,x\n1,2,3\n", "y,3", {2, 3}, {"y", "x"});
+}
+
+TEST(ColumnChoiceRefused, ARowOfMissingValues) {
+  expect_not_chosen(ErrorCode::kBadNumber, "line 1: column 2: found \"NA\"", "a,NA,NA\nb,1,2\n", "2-3");
+}
+
 TEST(ColumnChoiceRefused, WhatIsNoColumn) {
   for (const char* list : {"species,nope", "0", "6", "2-6", "4-3", "-2", "2-", "1.5", "Mass"})
     expect_not_chosen(ErrorCode::kUsage, "a number from 1 to 5 or a name of the header", kSpecies, list);

@@ -75,7 +75,7 @@ TEST(TableExample, EverySeparatorGivesTheSamePoints) {
   for (const char* content :
        {"1,-2.5,3e4\n.25,5.,-6\n", "1;-2.5;3e4\n.25;5.;-6\n", "1\t-2.5\t3e4\n.25\t5.\t-6\n",
         "  1 -2.5   3e4\n.25 5. -6", "1, -2.5, +3E+4\r\n.25 ,5.,-6\r\n\r\n",
-        "\xEF\xBB\xBF\"1\",\"-2.5\",\"3e4\"\n.25,5.,-6\n\n\n",
+        "\xEF\xBB\xBF\"1\",\"-2.5\",\"3e4\"\n\".25\",\"5.\",\"-6\"\n\n\n",
         "# made by hand\n1,-2.5,3e4 # first\n\n.25,5.,-6\n"}) {
     expect_points(content, 3, values);
   }
@@ -89,6 +89,33 @@ TEST(TableExample, HeaderNamesAreKeptWithoutTheirQuotes) {
     EXPECT_EQ(file.column_names, (std::vector<std::string>{"x", "y, or so", "z"}));
     EXPECT_EQ(rows_of(file.view()), (Values{1, 2, 3}));
   }
+}
+
+TEST(TableExample, NumbersInQuotesAboveNumbersWithoutAreNames) {
+  for (const char* content :
+       {"\"1\",\"2\"\n3,4\n5,6\n", "\"1\";\"2\"\n# a comment\n\n3;4\n5;6\n", "\"1\" \"2\"\n3 4\n5 6\n"}) {
+    SCOPED_TRACE(content);
+    const PointFile file = parse(content, "points.dat");
+    EXPECT_EQ(file.column_names, (std::vector<std::string>{"1", "2"}));
+    EXPECT_EQ(rows_of(file.view()), (Values{3, 4, 5, 6}));
+  }
+  expect_points("\"1\",\"2\"\n\"3\",\"4\"\n", 2, {1, 2, 3, 4});
+  expect_points("\"1\",\"2\"\n", 2, {1, 2});
+}
+
+TEST(TableExample, ARowOfMissingValuesIsNoHeader) {
+  for (const char* row : {"NA,NA", "na,n/a", "\"NA\",\"NA\"", "NA,", "null,None", ".,.", "-,?"})
+    expect_refused(ErrorCode::kBadNumber, "line 1: column", std::string(row) + "\n1,2\n", "points.csv");
+  expect_refused(ErrorCode::kBadNumber, "\"NA\", expected a number; fill in the value", "1,2\n3,NA\n");
+  expect_points("Na,K\n1,2\n", 2, {1, 2});
+}
+
+TEST(TableExample, LinesMayEndWithCarriageReturnsAlone) {
+  expect_points("x,y\r1,2\r3,4\r", 2, {1, 2, 3, 4});
+  expect_points("1 -2\r3 4", 2, {1, -2, 3, 4});
+  expect_points("3\r2\r1 2 3\r4 5 6\r\n", 3, {1, 2, 3, 4, 5, 6});
+  expect_points("1,2\r\r\n3,4\r\r\n", 2, {1, 2, 3, 4});
+  expect_refused(ErrorCode::kRaggedRow, "line 3: found 1 columns", "x,y\r1,2\r3\r");
 }
 
 TEST(TableExample, ATableOfIntegersIsNotTakenForQhullText) {

@@ -34,6 +34,31 @@ std::string describe(std::span<const std::string> names, std::size_t columns) {
   return names.size() > kMostNames ? text + ", ..." : text;
 }
 
+/// The column from 0 that has this name, or the number of columns. A name that could be another column is an
+/// error.
+std::size_t find_name(const std::string& item, std::span<const std::string> names, const std::string& file) {
+  const auto named = std::find(names.begin(), names.end(), item);
+  const auto column = static_cast<std::size_t>(named - names.begin());
+  if (named == names.end()) return column;
+  const auto again = std::find(named + 1, names.end(), item);
+  if (again != names.end()) {
+    throw Error(
+        ErrorCode::kUsage,
+        fmt::format("--columns: found \"{}\", the name of columns {} and {} of {}, expected one column; "
+                    "give its number",
+                    printable(item), column + 1, again - names.begin() + 1, file));
+  }
+  const auto [number, last] = read_range(item);
+  if (number != 0 && number == last && number <= names.size() && number != column + 1) {
+    throw Error(
+        ErrorCode::kUsage,
+        fmt::format("--columns: found \"{0}\", the name of column {1} and the number of another of {2}, "
+                    "expected one column; write {1}-{1} or {3}-{3}",
+                    printable(item), column + 1, file, number));
+  }
+  return column;
+}
+
 }  // namespace
 
 ColumnChoice::ColumnChoice(std::string list) : list_(std::move(list)) {
@@ -62,9 +87,8 @@ std::vector<std::size_t> ColumnChoice::resolve(std::span<const std::string> name
     chosen.push_back(column);
   };
   for (const std::string& item : items_) {
-    const auto named = std::find(names.begin(), names.end(), item);
-    if (named != names.end()) {
-      choose(static_cast<std::size_t>(named - names.begin()));
+    if (const std::size_t named = find_name(item, names, file); named < names.size()) {
+      choose(named);
       continue;
     }
     const auto [first, last] = read_range(item);

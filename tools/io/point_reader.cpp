@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "core/error.h"
@@ -87,6 +88,21 @@ const char* binary_kind(std::string_view bytes) {
   return nullptr;
 }
 
+/// Does a carriage return alone end lines, as it did before Unix? The first line tells.
+bool has_lone_returns(std::string_view text) {
+  const std::string_view first = text.substr(0, text.find('\n'));
+  const std::size_t last = first.find_last_not_of('\r');
+  return last != std::string_view::npos && first.find('\r') < last;
+}
+
+/// The same text in lines that end with newlines.
+std::string with_newlines(std::string_view text) {
+  std::string lines(text);
+  for (std::size_t at = 0; at < lines.size(); ++at)
+    if (lines[at] == '\r' && (at + 1 == lines.size() || lines[at + 1] != '\n')) lines[at] = '\n';
+  return lines;
+}
+
 }  // namespace
 
 PointFile::PointFile(std::string name, NumberTable table)
@@ -107,6 +123,7 @@ TextSource text_source_of(const FileBytes& bytes, const std::string& name) {
   if (const char* const kind = binary_kind(text); kind != nullptr) {
     throw Error(ErrorCode::kBadHeader, fmt::format("{}: expected text or .npy, found {}", name, kind));
   }
+  if (has_lone_returns(text)) return {name, std::make_shared<const std::string>(with_newlines(text))};
   return {name, text};
 }
 

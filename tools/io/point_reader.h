@@ -62,7 +62,7 @@ PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnCho
 /// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
 NumberTable read_number_text(const TextSource& source, const std::string& extension);
 
-/// The bytes as text, without a byte order mark.
+/// The bytes as text, without a byte order mark; carriage returns that end lines alone become newlines.
 /// Throws kBadHeader for UTF-16, compressed and other binary files, with what they are.
 TextSource text_source_of(const FileBytes& bytes, const std::string& name);
 

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "tools/io/qhull_text_reader.h"
 
 namespace ndhull {
 namespace {
@@ -55,6 +58,13 @@ bool is_header(const std::vector<std::string>& fields) {
     if (!field.empty() && (is_digit(field[0]) || is_number(field) || names_non_finite(field))) return false;
   }
   return true;
+}
+
+/// Rows may begin with one in which every value is missing: no names, though no numbers either.
+bool is_missing_row(std::span<const std::string> fields) {
+  const auto is_absent = [](const std::string& field) { return field.empty() || names_missing_value(field); };
+  return std::all_of(fields.begin(), fields.end(), is_absent) &&
+         std::any_of(fields.begin(), fields.end(), names_missing_value);
 }
 
 char find_separator(std::string_view line) {
@@ -175,6 +185,20 @@ std::size_t count_fields(const FieldLine& line, const char* place) {
   return count;
 }
 
+bool are_all_quoted(const FieldLine& line, const char* place) {
+  for (const char* at = line.skip(place); at != nullptr; at = line.next_field(skip_field(line, at)))
+    if (at == line.end || *at != '"') return false;
+  return true;
+}
+
+/// Numbers in quotes above rows that are not all in quotes: programs quote the names of columns, whatever they
+/// are, and the values as they are of a kind.
+bool is_header_by_quotes(const TextSource& source, const FieldLine& line, const char* place) {
+  if (!are_all_quoted(line, place)) return false;
+  const char* const below = line.end == source.end() ? line.end : skip_empty_lines(source, line.end + 1);
+  return below != source.end() && !are_all_quoted({source, source.line_end(below), line.separator}, below);
+}
+
 [[noreturn]] void fail_without_name(const TextSource& source, const char* line, std::size_t column,
                                     const ColumnChoice& choice) {
   source.fail(
@@ -190,18 +214,24 @@ TableLayout read_first_line(const TextSource& source, const char* line, const ch
   layout.separator = find_separator(content);
   while (!content.empty() && content.back() == '\r') content.remove_suffix(1);
   std::vector<std::string> fields = split(content, layout.separator);
-  layout.has_header = is_header(fields);
+  const FieldLine first{source, end, layout.separator};
+  layout.has_header = (is_header(fields) || is_header_by_quotes(source, first, line)) &&
+                      !(choice.is_all() && is_missing_row(fields));
   if (layout.has_header) {
     layout.columns = fields.size();
   } else {
     fields.clear();
   }
   if (!choice.is_all()) {
-    if (!layout.has_header) layout.columns = count_fields({source, end, layout.separator}, line);
+    if (!layout.has_header) layout.columns = count_fields(first, line);
     layout.chosen = choice.resolve(fields, layout.columns, source.name());
     layout.places.assign(layout.columns, kLeftOut);
     for (std::size_t place = 0; place < layout.chosen.size(); ++place)
       layout.places[layout.chosen[place]] = place;
+    std::vector<std::string> read;
+    if (layout.has_header)
+      for (const std::size_t column : layout.chosen) read.push_back(fields[column]);
+    layout.has_header = layout.has_header && !is_missing_row(read);
   }
   if (!layout.has_header) return layout;
   const std::size_t read = choice.is_all() ? fields.size() : layout.chosen.size();

@@ -9,7 +9,8 @@ namespace ndhull {
 /// Reads a table: one row a line, the same number of columns in each.
 ///
 /// Format    Separators are told from the first line: semicolon, tab, comma, else blanks. Fields may be
-///           quoted. The first line is a header when none of its fields is a number. Empty lines and
+///           quoted. The first line is a header when none of its fields is a number, or all are quoted
+///           and those of the next line are not; a line of missing values (NA) is none. Empty lines and
 ///           lines that start with # are skipped.
 /// Columns   `choice` says which are read, and in which order; what stands in the others is not looked at.
 /// Throws    kUsage           a column that the table does not have

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace ndhull {
 namespace {
@@ -59,6 +60,11 @@ void TextSource::fail_number(const char* place, std::size_t column) const {
          fmt::format("column {}: found nothing, expected a number; fill in the value or remove the row",
                      column));
   }
+  if (names_missing_value(word)) {
+    fail(ErrorCode::kBadNumber, place,
+         fmt::format("column {}: found \"{}\", expected a number; fill in the value or remove the row",
+                     column, word));
+  }
   fail(ErrorCode::kBadNumber, place,
        fmt::format("column {}: found \"{}\", expected a number; {}", column, word,
                    decimal_comma ? "write a decimal point, and one separator in all lines"
@@ -81,6 +87,14 @@ bool names_non_finite(std::string_view text) {
   // nan(0x1) shows the payload; 1.#INF and 1.#QNAN is how older C libraries print.
   return word == "nan" || word.starts_with("nan(") || word == "inf" || word == "infinity" ||
          word.starts_with("1.#in") || word.starts_with("1.#qnan") || word.starts_with("1.#snan");
+}
+
+bool names_missing_value(std::string_view text) {
+  std::string word;
+  for (const char letter : text) word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  constexpr std::string_view kSpellings[] = {"na",   "n/a", "#n/a", "<na>", "null",
+                                             "none", "nil", ".",    "-",    "?"};
+  return std::find(std::begin(kSpellings), std::end(kSpellings), word) != std::end(kSpellings);
 }
 
 bool begins_like_number(const char* place, const char* end) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,10 +19,12 @@ struct NumberTable {
   std::vector<std::string> names;  ///< of the columns; empty without a header line
 };
 
-/// A text and the name it has in messages. The text must outlive the source.
+/// A text and the name it has in messages. A text that is not kept must outlive the source.
 class TextSource {
  public:
   TextSource(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
+  TextSource(std::string name, std::shared_ptr<const std::string> kept)
+      : name_(std::move(name)), kept_(std::move(kept)), text_(*kept_) {}
 
   const std::string& name() const { return name_; }
   const char* begin() const { return text_.data(); }
@@ -41,6 +44,7 @@ class TextSource {
 
  private:
   std::string name_;
+  std::shared_ptr<const std::string> kept_;
   std::string_view text_;
 };
 
@@ -56,8 +60,11 @@ inline bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 /// Is `text` a spelling of NaN or infinity (nan, -inf, Infinity, 1.#IND, ...), in quotes or not?
 bool names_non_finite(std::string_view text);
 
-/// Is the word at `place` meant as a number, if perhaps a damaged one? Digits behind a quote, a sign or a point,
-/// a lone sign, a separator, and the spellings of NaN and infinity are; other words are text.
+/// Is `text` a spelling of a value that is missing (NA, n/a, null, none, a point, a dash, ...)?
+bool names_missing_value(std::string_view text);
+
+/// Is the word at `place` meant as a number, if perhaps a damaged one? Digits behind a quote, a sign or a
+/// point, a lone sign, a separator, and the spellings of NaN and infinity are; other words are text.
 bool begins_like_number(const char* place, const char* end);
 
 /// `text` for a one-line message: cut at 40 characters, control characters as question marks.
