@@ -106,6 +106,9 @@ def test_usage_gives_one_line():
         [*hull, "--planes", "one.txt", "--vertices", "one.txt"], [*hull, "--verify=thoroughly"],
         ["generate"], ["generate", "doughnut"], ["generate", "sphere", "-n", "-1"],
         ["generate", "sphere", "-d", "0"], ["generate", "sphere", "-n", "0"],
+        ["generate", "sphere", "--side", "4"], ["generate", "lattice", "--spread", "0.1"],
+        ["generate", "cube", "--axes", "1", "2"], ["generate", "cone", "--lens-radius", "2"],
+        ["generate", "lens", "--curve", "auto"], ["generate", "ball", "--clusters", "3"],
         ["generate", "ellipsoid", "-d", "3", "--axes", "1", "2"], ["generate", "lens", "--lens-radius", "0.5"],
         ["rbox"], ["rbox", "10 D0"], ["rbox", "10 nonsense"], ["verify"], ["verify", "-", "-"],
     ]  # fmt: skip

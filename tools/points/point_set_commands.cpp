@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/error.h"
 #include "tools/command_line/command_options.h"
 #include "tools/io/file_bytes.h"
 #include "tools/io/output_file.h"
@@ -53,6 +54,25 @@ void add_family_parameters(CLI::App& command, GenerateArguments& arguments) {
   command.add_option("--spread", options.spread, "clusters: standard deviation of a cloud; default 0.01")
       ->type_name("S")
       ->check(positive_number());
+}
+
+/// A parameter that only one family has.
+struct FamilyParameter {
+  const char* option;
+  PointFamily family;
+};
+constexpr FamilyParameter kFamilyParameters[] = {
+    {"--curve", PointFamily::kCyclic},      {"--side", PointFamily::kLattice},
+    {"--lens-radius", PointFamily::kLens},  {"--axes", PointFamily::kEllipsoid},
+    {"--clusters", PointFamily::kClusters}, {"--spread", PointFamily::kClusters}};
+
+void check_parameters_are_of(const CLI::App& command, PointFamily family) {
+  for (const FamilyParameter& parameter : kFamilyParameters) {
+    if (parameter.family == family || command.count(parameter.option) == 0) continue;
+    throw Error(ErrorCode::kUsage,
+                fmt::format("{}: found it with the family {}, expected it with {} only; leave it out",
+                            parameter.option, to_string(family), to_string(parameter.family)));
+  }
 }
 
 }  // namespace
@@ -117,9 +137,10 @@ void add_generate_command(CLI::App& app) {
       ->check(path_name());
   command->add_flag("--float32", arguments->is_float, "round coordinates to float32");
   command->footer(example("ndhull generate sphere -d 7 -n 100000 --seed 3 -o sphere7.npy"));
-  command->callback([arguments, count] {
+  command->callback([arguments, command, count] {
     GenerateOptions& wanted = arguments->options;
     wanted.family = point_family(arguments->family);
+    check_parameters_are_of(*command, wanted.family);
     if (count->count() == 0 && is_finite_family(wanted.family)) wanted.count = 0;
     if (arguments->is_float) wanted.scalar = ScalarType::kFloat32;
     if (arguments->curve == "moment") wanted.curve = CyclicCurve::kMoment;
