@@ -121,7 +121,8 @@ void add_intersect_command(CLI::App& app, int& exit_code) {
   command->footer(
       "HALFSPACES: .ine (cdd, lrs), .npy (rows normal, offset), Qhull text or columns; a point \"d 1\" in "
       "front\n"
-      "is taken for --interior-point. FILE may be - for standard output.\n"
+      "is taken for --interior-point. Halfspaces and vertices count from 0. FILE may be - for standard "
+      "output.\n"
       "The intersection is bounded, unbounded (with a direction), empty (with a combination of halfspaces\n"
       "that proves it) or lower-dimensional (with equations): `status` in the report, and the summary, say "
       "which.\n"

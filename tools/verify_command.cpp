@@ -63,6 +63,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->check(whole_number(0, kMostThreads));
   command->footer(
       "Numbers are taken as the doubles they are read to; a point on a plane is not above it.\n"
+      "Points and planes count from 0.\n"
       "Example: ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy");
   command->callback([arguments, &exit_code] {
     const PlaneCheck check =

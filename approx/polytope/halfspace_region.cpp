@@ -344,7 +344,7 @@ HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
   if (furthest >= 0.0) {
     std::ostringstream message;
     message.precision(3);
-    message << "halfspace " << worst + 1 << ": found the interior point ";
+    message << "halfspace " << worst << " (counted from 0): found the interior point ";
     furthest > 0.0 ? message << furthest << " above" : message << "on";
     message << " its plane, expected it below; give another point, or none";
     throw Error(ErrorCode::kBadHalfspace, message.str());

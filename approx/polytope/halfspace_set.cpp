@@ -39,13 +39,13 @@ HalfspaceSet::HalfspaceSet(const PointView& rows) : dimension_(rows.dimension - 
     rows.copy_row(row, out);
     for (std::size_t column = 0; column < rows.dimension; ++column) {
       if (std::isfinite(out[column])) continue;
-      throw Error(ErrorCode::kNotFinite, "halfspace " + std::to_string(row + 1) + ", column " +
+      throw Error(ErrorCode::kNotFinite, "halfspace " + std::to_string(row) + " (counted from 0), column " +
                                              std::to_string(column + 1) +
                                              ": found NaN or infinity, expected a finite number");
     }
     lengths_[row] = length_of(normal(row));
     if (lengths_[row] > 0.0 && std::isfinite(lengths_[row])) continue;
-    throw Error(ErrorCode::kBadHalfspace, "halfspace " + std::to_string(row + 1) +
+    throw Error(ErrorCode::kBadHalfspace, "halfspace " + std::to_string(row) + " (counted from 0)" +
                                               ": found a normal of length " + std::to_string(lengths_[row]) +
                                               ", expected a positive finite one; remove the row");
   }

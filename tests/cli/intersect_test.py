@@ -165,7 +165,7 @@ def test_interior_points():
     assert in_front["interior_point"] == [0.25, 0.25]
     done = run("intersect", "-", "--interior-point", "0 1.5", exit_code=1, stdin=rows)
     one_error_line(done, "bad-halfspace")
-    assert "halfspace 3: found the interior point 0.5 above" in done.stderr
+    assert "halfspace 2 (counted from 0): found the interior point 0.5 above" in done.stderr
     one_error_line(run("intersect", "-", "--interior-point", "0 x", exit_code=1, stdin=rows), "usage")
     one_error_line(run("intersect", "-", "--interior-point", "0", exit_code=1, stdin=rows), "usage")
 

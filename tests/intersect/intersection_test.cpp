@@ -246,9 +246,10 @@ TEST(IntersectionExample, InteriorPointsAreTakenOrRefused) {
     }
     return "";
   };
-  EXPECT_NE(message_of({0.0, 1.5}).find("halfspace 3: found the interior point 0.5 above"),
+  EXPECT_NE(message_of({0.0, 1.5}).find("halfspace 2 (counted from 0): found the interior point 0.5 above"),
             std::string::npos);
-  EXPECT_NE(message_of({-1.0, 0.0}).find("halfspace 2: found the interior point on"), std::string::npos);
+  EXPECT_NE(message_of({-1.0, 0.0}).find("halfspace 1 (counted from 0): found the interior point on"),
+            std::string::npos);
   EXPECT_NE(message_of({0.0}).find("of 1 coordinates, expected 2"), std::string::npos);
 }
 

@@ -143,8 +143,9 @@ TEST(HalfspaceRefusedExample, EquationsPointsAndZeroNormals) {
                             "H-representation\nlinearity 1 1\n" + rows);
   expect_halfspaces_refused(ErrorCode::kBadHeader, "line 6: found equations", rows + "linearity 1 1\n");
   expect_halfspaces_refused(ErrorCode::kBadHeader, "ndhull hull", "V-representation\n" + rows);
-  expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 2", rows);
-  expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 1", "3\n1\n0 -0 1\n", "a.txt");
+  expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 1 (counted from 0)", rows);
+  expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 0 (counted from 0)", "3\n1\n0 -0 1\n",
+                            "a.txt");
 }
 
 TEST(HalfspaceRefusedExample, BadTextKeepsItsLine) {

@@ -116,11 +116,10 @@ void check(const HalfspaceFile& file) {
     const bool is_zero = std::all_of(normal, normal + static_cast<std::ptrdiff_t>(file.dimension),
                                      [](double component) { return component == 0.0; });
     if (!is_zero) continue;
-    throw Error(
-        ErrorCode::kBadHalfspace,
-        fmt::format(
-            "{}, halfspace {}: found a zero normal, expected one component other than 0; remove the row",
-            file.path, row + 1));
+    throw Error(ErrorCode::kBadHalfspace,
+                fmt::format("{}, halfspace {} (counted from 0): found a zero normal, expected one component "
+                            "other than 0; remove the row",
+                            file.path, row));
   }
 }
 
