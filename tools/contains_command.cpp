@@ -79,7 +79,8 @@ void run_contains(const ContainsArguments& arguments) {
   }
   const HalfspaceFile planes = read_halfspaces(arguments.planes);
   const PointFile queries = read_points(arguments.queries, arguments.columns);
-  check_outputs_are_writable({{"--output", arguments.output}}, {arguments.planes, arguments.queries});
+  check_outputs_are_writable({{"--output", arguments.output, OutputKind::kNumbers}},
+                             {arguments.planes, arguments.queries});
   if (planes.dimension != queries.view().dimension) {
     throw Error(ErrorCode::kUsage,
                 fmt::format("{}: found planes in {}-d, expected {}-d as the queries of {}", planes.path,

@@ -37,9 +37,11 @@ using Json = nlohmann::ordered_json;
 
 std::vector<NamedOutput> outputs_of(const ExtremeRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
-  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path});
-  if (!request.distances_path.empty()) outputs.push_back({"--distances", request.distances_path});
+  if (!request.vertices_path.empty())
+    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
+  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path, OutputKind::kPlanes});
+  if (!request.distances_path.empty())
+    outputs.push_back({"--distances", request.distances_path, OutputKind::kNumbers});
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
   return outputs;
 }

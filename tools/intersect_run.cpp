@@ -24,7 +24,8 @@ namespace {
 
 std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
+  if (!request.vertices_path.empty())
+    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kPoints});
   if (!request.formats.empty()) outputs.push_back({"--format", "-"});
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
   return outputs;

@@ -30,8 +30,9 @@ namespace {
 
 std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path});
-  if (!request.vertices_path.empty()) outputs.push_back({"--vertices", request.vertices_path});
+  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path, OutputKind::kPlanes});
+  if (!request.vertices_path.empty())
+    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
   return outputs;
 }

@@ -180,6 +180,29 @@ def test_outputs_with_one_place_under_two_names():
     assert (folder / "old.txt").read_text() == "old" and not (folder / "new.txt").exists()
 
 
+def test_extensions_that_say_something_else_than_what_is_written():
+    folder = fresh_folder("extensions")
+    run("rbox", "20 D3 t1", "-o", folder / "points.ext")
+    run("generate", "cube", "-d", 3, "-n", 30, "-o", folder / "more.ext")
+    run("hull", folder / "points.ext", "--planes", folder / "planes.ine")
+    run("intersect", folder / "planes.ine", "--vertices", folder / "corners.ext")
+    for name in ("more.ext", "corners.ext"):
+        run("contains", folder / "planes.ine", folder / name, "-o", folder / "distances.csv")
+    points, planes = folder / "points.ext", folder / "planes.ine"
+    usages = [
+        (["generate", "cube", "-o"], "x.ine", ".ext"), (["rbox", "20 D3", "-o"], "x.ine", ".ext"),
+        (["hull", points, "--planes"], "x.ext", ".ine"), (["hull", points, "--vertices"], "x.ext", ".npy"),
+        (["hull", points, "--vertices"], "x.ine", ".npy"), (["largest", points, "--planes"], "x.ext", ".ine"),
+        (["extreme", points, "--planes"], "x.ext", ".ine"), (["extreme", points, "--vertices"], "x.ext", ".npy"),
+        (["extreme", points, "--keep", "3", "--distances"], "x.ine", ".npy"),
+        (["intersect", planes, "--vertices"], "x.ine", ".ext"), (["contains", planes, points, "-o"], "x.ine", ".npy"),
+    ]  # fmt: skip
+    for words, name, fitting in usages:
+        done = run(*words, folder / name, exit_code=1)
+        one_error_line(done, "usage")
+        assert f"name it {fitting}" in done.stderr and not (folder / name).exists(), done.stderr
+
+
 def test_a_full_disk_is_an_error():
     one_error_line(run("hull", DIAMONDS, "--report", "/dev/full", exit_code=1), "file-write")
 

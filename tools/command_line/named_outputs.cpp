@@ -38,7 +38,36 @@ void check_input_is_kept(const NamedOutput& output, const std::string& input) {
                           output.option, output.path, output.path == input ? "" : " " + display_name(input)));
 }
 
+std::string_view content_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::kText: return "text";
+    case OutputKind::kPoints: return "points";
+    case OutputKind::kPlanes: return "planes";
+    case OutputKind::kNumbers: return "numbers";
+  }
+  return "text";
+}
+
 }  // namespace
+
+void check_outputs_fit(const std::vector<NamedOutput>& outputs) {
+  for (const NamedOutput& output : outputs) {
+    const std::string extension = extension_of(output.path);
+    const bool is_points = extension == "ext", is_planes = extension == "ine";
+    if (output.kind == OutputKind::kText || !(is_points || is_planes)) continue;
+    if (output.kind == (is_points ? OutputKind::kPoints : OutputKind::kPlanes)) continue;
+    const std::string_view fitting = output.kind == OutputKind::kPoints   ? ".ext, "
+                                     : output.kind == OutputKind::kPlanes ? ".ine, "
+                                                                          : "";
+    throw Error(
+        ErrorCode::kUsage,
+        fmt::format("{}: found {}, which readers take for {}, expected a file for {}; name it {}.npy, "
+                    ".csv, .tsv or .txt",
+                    output.option, output.path,
+                    is_points ? "points (V-representation)" : "halfspaces (H-representation)",
+                    content_of(output.kind), fitting));
+  }
+}
 
 void check_outputs_differ(const std::vector<NamedOutput>& outputs) {
   for (std::size_t one = 0; one < outputs.size(); ++one) {
@@ -55,8 +84,10 @@ void check_outputs_differ(const std::vector<NamedOutput>& outputs) {
 
 void check_outputs_are_writable(const std::vector<NamedOutput>& outputs,
                                 const std::vector<std::string>& inputs) {
-  for (const NamedOutput& output : outputs) {
+  for (const NamedOutput& output : outputs)
     for (const std::string& input : inputs) check_input_is_kept(output, input);
+  check_outputs_fit(outputs);
+  for (const NamedOutput& output : outputs) {
     std::error_code ignored;
     const auto status = std::filesystem::status(output.path, ignored);
     // Opening a pipe and closing it again would tell its reader that this is all.

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tools/command_line/command_options.h"
+#include "tools/command_line/named_outputs.h"
 #include "tools/io/file_bytes.h"
 #include "tools/io/output_file.h"
 #include "tools/io/point_writer.h"
@@ -91,7 +92,7 @@ void write_generated(const std::string& path, const GenerateOptions& options) {
 
 void write_rbox(const std::string& path, const std::string& arguments) {
   const std::string extension = extension_of(path);
-  if (extension == "npy" || extension == "csv" || extension == "tsv") {
+  if (extension == "npy" || extension == "csv" || extension == "tsv" || extension == "ext") {
     const PointSet points = rbox(arguments);
     PointWriter writer(path, {.rows = points.rows(),
                               .dimension = points.dimension,
@@ -132,7 +133,8 @@ void add_generate_command(CLI::App& app) {
       ->check(whole_number(0));
   add_family_parameters(*command, *arguments);
   command
-      ->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv or Qhull text; default - (text)")
+      ->add_option("-o,--output", arguments->path,
+                   "file: .npy, .csv, .tsv, .ext or Qhull text; default - (text)")
       ->type_name("FILE")
       ->check(path_name());
   command->add_flag("--float32", arguments->is_float, "round coordinates to float32");
@@ -145,6 +147,7 @@ void add_generate_command(CLI::App& app) {
     if (arguments->is_float) wanted.scalar = ScalarType::kFloat32;
     if (arguments->curve == "moment") wanted.curve = CyclicCurve::kMoment;
     if (arguments->curve == "trigonometric") wanted.curve = CyclicCurve::kTrigonometric;
+    check_outputs_fit({{"--output", arguments->path, OutputKind::kPoints}});
     write_generated(arguments->path, wanted);
   });
 }
@@ -160,11 +163,15 @@ void add_rbox_command(CLI::App& app) {
   command->add_option("ARGUMENTS", arguments->text, "rbox's arguments as one word, in quotes")
       ->type_name("")
       ->required();
-  command->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv or text; default - (text)")
+  command
+      ->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv, .ext or text; default - (text)")
       ->type_name("FILE")
       ->check(path_name());
   command->footer(example("ndhull rbox \"1000 s D5 t1\" | ndhull hull -"));
-  command->callback([arguments] { write_rbox(arguments->path, arguments->text); });
+  command->callback([arguments] {
+    check_outputs_fit({{"--output", arguments->path, OutputKind::kPoints}});
+    write_rbox(arguments->path, arguments->text);
+  });
 }
 
 }  // namespace ndhull
