@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,6 +42,23 @@ std::string_view to_string(Membership membership) {
   return "unknown";
 }
 
+constexpr std::uint32_t kNoPlane = std::numeric_limits<std::uint32_t>::max();
+
+/// As it is written: -1 where there is none.
+std::int64_t plane_of(const PlaneDistance& query) {
+  return query.plane == kNoPlane ? -1 : std::int64_t{query.plane};
+}
+
+/// Without planes nothing is outside, however far.
+std::vector<PlaneDistance> distances_of(const PointFile& queries, const HalfspaceFile& planes,
+                                        unsigned threads) {
+  if (planes.count > 0) return distances_to_planes(queries.view(), planes.rows, threads);
+  fmt::print(stderr, "ndhull: warning: {}: found no planes: every query is inside\n", planes.path);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return std::vector<PlaneDistance>(queries.view().rows,
+                                    PlaneDistance{.distance = -kInfinity, .plane = kNoPlane});
+}
+
 /// .npy: rows distance, plane, and 1 outside, 0 within the width, -1 inside; text: one line a query.
 void write_distances(const std::string& path, const std::vector<PlaneDistance>& distances, double width) {
   OutputFile file(path);
@@ -46,12 +66,13 @@ void write_distances(const std::string& path, const std::vector<PlaneDistance>& 
     file.write(make_npy_header("<f8", {distances.size(), 3}));
     for (const PlaneDistance& query : distances) {
       const double answer = 1.0 - static_cast<double>(membership_of(query.distance, width));
-      const std::array<double, 3> row{query.distance, static_cast<double>(query.plane), answer};
+      const std::array<double, 3> row{query.distance, static_cast<double>(plane_of(query)), answer};
       file.write({reinterpret_cast<const char*>(row.data()), sizeof(row)});
     }
   } else {
     for (const PlaneDistance& query : distances) {
-      file.print("{} {} {}\n", query.distance, query.plane, to_string(membership_of(query.distance, width)));
+      file.print("{} {} {}\n", query.distance, plane_of(query),
+                 to_string(membership_of(query.distance, width)));
     }
   }
   file.commit();
@@ -67,7 +88,7 @@ void write_summary(const std::vector<PlaneDistance>& distances, double width) {
   OutputFile out("-");
   out.print("queries {}: outside {}, within the width {}, inside {}\n", distances.size(), counts[0],
             counts[1], counts[2]);
-  out.print("furthest: query {} plane {} distance {}\n", furthest, distances[furthest].plane,
+  out.print("furthest: query {} plane {} distance {}\n", furthest, plane_of(distances[furthest]),
             distances[furthest].distance);
   out.commit();
 }
@@ -86,8 +107,7 @@ void run_contains(const ContainsArguments& arguments) {
                 fmt::format("{}: found planes in {}-d, expected {}-d as the queries of {}", planes.path,
                             planes.dimension, queries.view().dimension, queries.path));
   }
-  const std::vector<PlaneDistance> distances =
-      distances_to_planes(queries.view(), planes.rows, arguments.threads);
+  const std::vector<PlaneDistance> distances = distances_of(queries, planes, arguments.threads);
   if (arguments.summary) {
     write_summary(distances, arguments.width);
   } else {
@@ -135,7 +155,7 @@ void add_contains_command(CLI::App& app) {
       ->check(whole_number(0, kMostThreads));
   command->footer(
       "Planes count from 0 in the order of their file. Signs are exact: a query on a plane is not "
-      "outside.\n" +
+      "outside. Without planes, as of an empty selection, every query is inside: distance -inf, plane -1.\n" +
       example(
           "ndhull hull points.npy --planes outer.npy && ndhull contains outer.npy new.npy -o answers.npy"));
   command->callback([arguments] { run_contains(*arguments); });

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,20 @@ std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
   return outputs;
 }
 
+/// What no halfspaces leave.
+HalfspaceIntersection whole_space(std::size_t dimension) {
+  HalfspaceIntersection space{.kind = IntersectionKind::kUnbounded};
+  space.dimension = space.rank = dimension;
+  space.interior_point.assign(dimension, 0.0);
+  space.inner_radius = std::numeric_limits<double>::infinity();
+  space.direction.assign(dimension, 0.0);
+  space.direction[0] = 1.0;
+  return space;
+}
+
 /// What is thrown of the halfspaces names their file.
 HalfspaceIntersection intersect_file(const HalfspaceFile& file, const IntersectionOptions& options) {
+  if (file.count == 0) return whole_space(file.dimension);
   try {
     return intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1),
                                 options);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Written outer planes: no input point is above one, in exact arithmetic and when evaluated in doubles."""
 
+import json
 import shutil
 import subprocess
 from fractions import Fraction
@@ -126,6 +127,24 @@ def test_the_same_planes_in_every_format():
         assert ine[0] == "H-representation" and ine[2] == f"{len(rows)} 5 real" and ine[-1] == "end"
         numbers = numpy.array([line.split() for line in ine[3:-1]], dtype=float)
         assert (-numbers[:, 1:] == rows[:, :-1]).all() and (-numbers[:, 0] == rows[:, -1]).all()
+
+
+def test_no_planes_are_read_again_and_leave_the_whole_space():
+    folder = fresh_folder("none")
+    run("rbox", "20 D3 t1", "-o", folder / "points.npy")
+    numpy.save(folder / "one.npy", [[1.0, 2.0, 3.0]])
+    for extension in ("npy", "ine", "txt", "csv", "tsv"):
+        planes = folder / f"planes.{extension}"
+        for words in (["points.npy", "--min-area", "1e9"], ["one.npy"]):
+            run("hull", folder / words[0], *words[1:], "--planes", planes, "--quiet")
+            done = run("contains", planes, folder / "one.npy")
+            assert done.stdout == "-inf -1 inside\n" and "found no planes" in done.stderr, done
+            run("contains", planes, folder / "one.npy", "-o", folder / "answers.npy")
+            assert numpy.load(folder / "answers.npy").tolist() == [[-numpy.inf, -1, -1]]
+            assert "nothing to check: no planes" in run("verify", folder / "points.npy", planes).stdout
+            report = json.loads(run("intersect", planes, "--report", "-").stdout)
+            assert report["status"] == "unbounded" and report["input"]["halfspaces"] == 0
+            assert report["rank"] == 3 and report["inner_radius"] is None
 
 
 def test_vertices_are_not_below_inner_planes():

@@ -42,7 +42,7 @@ void try_points(std::string_view content, const char* path, const ndhull::Column
 void try_halfspaces(std::string_view content, const char* path) {
   try {
     const ndhull::HalfspaceFile file = ndhull::parse_halfspaces(ndhull::FileBytes::copy_of(content), path);
-    NDHULL_CHECK(file.count > 0 && file.dimension > 0);
+    NDHULL_CHECK(file.dimension > 0);
     NDHULL_CHECK(file.rows.size() == file.count * (file.dimension + 1));
     for (const double value : file.rows) NDHULL_CHECK(std::isfinite(value));
     NDHULL_CHECK(!file.interior_point || file.interior_point->size() == file.dimension);

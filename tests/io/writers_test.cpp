@@ -121,6 +121,18 @@ TEST(PlaneWriterLaw, WhatIsWrittenIsReadBackIdentically) {
   }
 }
 
+TEST(PlaneWriterLaw, NoPlanesAreReadBackInTheirDimension) {
+  const Scratch scratch;
+  for (const char* name : {"planes.ine", "planes.npy", "planes.csv", "planes.tsv", "planes.txt"}) {
+    SCOPED_TRACE(name);
+    write_all(scratch.path(name), {}, 3);
+    const HalfspaceFile file = read_halfspaces(scratch.path(name));
+    EXPECT_EQ(file.dimension, 3U);
+    EXPECT_EQ(file.count, 0U);
+    EXPECT_TRUE(file.rows.empty());
+  }
+}
+
 TEST(PlaneWriterExample, TheFormatsAreThoseOtherProgramsRead) {
   const Scratch scratch;
   const std::vector<double> rows{1, 0, -0.5, 0, -1, -0.25};

@@ -82,7 +82,7 @@ struct MatrixHeader {
   std::size_t columns = 0;
 };
 
-MatrixHeader read_matrix_header(const TextSource& source, const Line& line) {
+MatrixHeader read_matrix_header(const TextSource& source, const Line& line, bool may_be_empty) {
   const char* const end = line.text.data() + line.text.size();
   const char* at = line.text.data();
   MatrixHeader header;
@@ -111,7 +111,7 @@ MatrixHeader read_matrix_header(const TextSource& source, const Line& line) {
                 fmt::format("found {} columns, expected dimension + 1, at least 2; correct the line",
                             header.columns));
   }
-  if (header.rows == 0 && !header.rows_are_open) {
+  if (header.rows == 0 && !header.rows_are_open && !may_be_empty) {
     source.fail(ErrorCode::kEmptyInput, line.start, "found 0 rows, expected 1 or more; correct the line");
   }
   return header;
@@ -168,7 +168,6 @@ void read_matrix(const TextSource& source, const MatrixHeader& header, const cha
     source.fail(ErrorCode::kWrongCount, source.end(),
                 "found the end of the file, expected a line \"end\" behind the rows; append it");
   }
-  if (table.rows == 0) source.fail(ErrorCode::kEmptyInput, place, "found 0 rows, expected 1 or more");
 }
 
 }  // namespace
@@ -184,7 +183,7 @@ bool looks_like_cdd(const TextSource& source) {
   return false;
 }
 
-CddMatrix read_cdd(const TextSource& source) {
+CddMatrix read_cdd(const TextSource& source, bool may_be_empty) {
   source.require_content();
   CddMatrix matrix;
   const auto note_option = [&](const Line& line) {
@@ -217,9 +216,11 @@ CddMatrix read_cdd(const TextSource& source) {
     place = line.next;
   }
   const Line header_line = line_at(source, place);
-  const MatrixHeader header = read_matrix_header(source, header_line);
+  const MatrixHeader header = read_matrix_header(source, header_line, may_be_empty);
   place = header_line.next;
   read_matrix(source, header, place, matrix);
+  if (matrix.table.rows == 0 && !may_be_empty)
+    source.fail(ErrorCode::kEmptyInput, place, "found 0 rows, expected 1 or more");
   while (place != source.end()) {
     const Line line = line_at(source, place);
     note_option(line);

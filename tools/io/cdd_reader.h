@@ -26,6 +26,7 @@ bool looks_like_cdd(const TextSource& source);
 ///         kBadHeader    no `begin`, or not "rows columns type" below it
 ///         kDimensionTooLow  fewer than 2 columns
 ///         kBadNumber, kNotFinite, kRaggedRow, kWrongCount (`end` too early, too late or missing)
-CddMatrix read_cdd(const TextSource& source);
+/// `may_be_empty`: 0 rows are no error.
+CddMatrix read_cdd(const TextSource& source, bool may_be_empty = false);
 
 }  // namespace ndhull

@@ -18,7 +18,7 @@ namespace {
 
 /// b0 + a'.x >= 0 is -a'.x - b0 <= 0. Subtracting from zero instead of negating leaves no minus zeros.
 HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& extension) {
-  CddMatrix matrix = read_cdd(source);
+  CddMatrix matrix = read_cdd(source, true);
   const bool is_h = matrix.representation_is_stated ? matrix.h_representation : extension != "ext";
   if (!is_h) {
     throw Error(
@@ -69,14 +69,14 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
   const char* const rest = read_interior_point(source, point);
   NumberTable table;
   if (rest == nullptr) {
-    table = read_number_text(source, extension);
+    table = read_number_text(source, extension, true);
   } else {
     // Line numbers in messages count from the start of the file, so the point becomes blank lines.
     std::string text(source.begin(), rest);
     std::replace_if(
         text.begin(), text.end(), [](char letter) { return letter != '\n'; }, ' ');
     text.append(rest, source.end());
-    table = read_number_text(TextSource(source.name(), text), extension);
+    table = read_number_text(TextSource(source.name(), text), extension, true);
     if (point.size() + 1 != table.columns) {
       source.fail(
           ErrorCode::kBadHeader, skip_comment_lines(source, source.begin()),
@@ -93,6 +93,12 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
 }
 
 HalfspaceFile read_npy_halfspaces(FileBytes bytes, const std::string& name) {
+  if (const NpyHeader header = read_npy_header(bytes.view(), name);
+      header.shape.size() == 2 && header.shape[0] == 0 && header.shape[1] > 0) {
+    HalfspaceFile none;
+    none.dimension = header.shape[1] - 1;
+    return none;
+  }
   const PointFile points = read_npy(std::move(bytes), name, kKeptFileBytes);
   const PointView view = points.view();
   HalfspaceFile file;

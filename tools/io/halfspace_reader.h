@@ -10,7 +10,7 @@
 
 namespace ndhull {
 
-/// Halfspaces a.x + b <= 0.
+/// Halfspaces a.x + b <= 0. None at all, as the planes of an empty selection are, leave the whole space.
 ///
 /// Shapes  rows: count x (dimension + 1), each a_1 .. a_d, b. The normals are as in the file: of any
 ///         length but zero.

@@ -32,9 +32,14 @@ void write_npy(OutputFile& file, std::size_t count, std::size_t dimension, const
   }
 }
 
-/// A row a line, without names: a table that `intersect`, `contains` and `verify` read.
+/// A row a line, without names: a table that `intersect`, `contains` and `verify` read. Names alone where
+/// there is no row: they tell the dimension.
 void write_table(OutputFile& file, std::size_t count, std::size_t dimension, char separator,
                  const FillPlane& planes) {
+  if (count == 0) {
+    for (std::size_t k = 1; k <= dimension; ++k) file.print("n{}{}", k, separator);
+    file.write("offset\n");
+  }
   std::vector<double> row(dimension + 1);
   for (std::size_t index = 0; index < count; ++index) {
     planes(index, row.data());

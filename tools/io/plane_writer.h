@@ -15,7 +15,7 @@ using FillPlane = std::function<void(std::size_t index, double* row)>;
 ///
 /// Formats   .ine  H-representation, rows -offset -normal, real numbers: for cdd; for lrs by its float2rat
 ///           .npy  float64, rows normal offset
-///           .csv, .tsv  a table without names, rows normal offset
+///           .csv, .tsv  a table without names, rows normal offset; of no planes, names
 ///           else  Qhull text as option `n` prints it: dimension + 1, count, rows normal offset
 ///           All of them read back as the same doubles: text has 17 digits, one more than Qhull prints,
 ///           because a certified plane that is rounded is no longer certified.

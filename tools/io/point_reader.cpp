@@ -127,9 +127,10 @@ TextSource text_source_of(const FileBytes& bytes, const std::string& name) {
   return {name, text};
 }
 
-NumberTable read_number_text(const TextSource& source, const std::string& extension) {
+NumberTable read_number_text(const TextSource& source, const std::string& extension, bool may_be_empty) {
   source.require_content();
-  return is_qhull_text(source, extension) ? read_qhull_text(source) : read_table(source);
+  return is_qhull_text(source, extension) ? read_qhull_text(source, may_be_empty)
+                                          : read_table(source, {}, may_be_empty);
 }
 
 PointFile read_points(const std::string& path, const ColumnChoice& columns, std::size_t kept_bytes) {

@@ -60,7 +60,9 @@ PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnCho
                        std::size_t kept_bytes = kKeptFileBytes);
 
 /// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
-NumberTable read_number_text(const TextSource& source, const std::string& extension);
+/// `may_be_empty`: a count of 0, or a table of names alone, is no error.
+NumberTable read_number_text(const TextSource& source, const std::string& extension,
+                             bool may_be_empty = false);
 
 /// The bytes as text, without a byte order mark; carriage returns that end lines alone become newlines.
 /// Throws kBadHeader for UTF-16, compressed and other binary files, with what they are.

@@ -193,7 +193,7 @@ bool looks_like_qhull_text(const TextSource& source) {
   return !is_table && !first.has_text && is_announced(first.value[0], first.value[1], first.next);
 }
 
-NumberTable read_qhull_text(const TextSource& source) {
+NumberTable read_qhull_text(const TextSource& source, bool may_be_empty) {
   source.require_content();
   const char* const start = skip_comment_lines(source, source.begin());
   const IntegerLine first = read_integer_line(source, start);
@@ -220,7 +220,7 @@ NumberTable read_qhull_text(const TextSource& source) {
     source.fail(ErrorCode::kDimensionTooLow, start,
                 "found dimension 0, expected 1 or more; correct the header");
   }
-  if (count == 0)
+  if (count == 0 && !may_be_empty)
     source.fail(ErrorCode::kEmptyInput, start, "found 0 points, expected 1 or more; correct the count");
   const auto announced = product(dimension, count);
   if (!announced) {

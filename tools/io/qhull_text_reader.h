@@ -19,7 +19,8 @@ bool looks_like_qhull_text(const TextSource& source);
 ///            for a comment where a number is missing;
 ///            kRaggedRow when there are as many lines as points and one has another length;
 ///            kWrongCount otherwise when the numbers are not as many as announced.
-NumberTable read_qhull_text(const TextSource& source);
+/// `may_be_empty`: count 0 is no error.
+NumberTable read_qhull_text(const TextSource& source, bool may_be_empty = false);
 
 /// Skips empty lines and lines that start with #.
 const char* skip_empty_lines(const TextSource& source, const char* place);

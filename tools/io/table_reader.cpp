@@ -259,7 +259,7 @@ std::size_t read_row(const TextSource& source, const TableLayout& layout, const 
 
 }  // namespace
 
-NumberTable read_table(const TextSource& source, const ColumnChoice& choice) {
+NumberTable read_table(const TextSource& source, const ColumnChoice& choice, bool may_be_empty) {
   source.require_content();
   NumberTable table;
   TableLayout layout;
@@ -300,6 +300,10 @@ NumberTable read_table(const TextSource& source, const ColumnChoice& choice) {
       table.values.reserve((left / length + left / length / 8 + 1) * table.columns);
     }
     ++table.rows;
+  }
+  if (table.rows == 0 && may_be_empty && !table.names.empty()) {
+    table.columns = table.names.size();
+    return table;
   }
   if (table.rows == 0) {
     throw Error(ErrorCode::kEmptyInput,

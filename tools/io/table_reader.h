@@ -17,7 +17,8 @@ namespace ndhull {
 ///           kEmptyInput      nothing, or nothing but a header
 ///           kBadHeader       a header where a column that is read has no name: it is an index, not a
 ///           coordinate kBadNumber, kNotFinite, kRaggedRow, with line and column
+/// Empty     with `may_be_empty` a header alone is a table of no rows.
 /// Cost      one pass.
-NumberTable read_table(const TextSource& source, const ColumnChoice& choice = {});
+NumberTable read_table(const TextSource& source, const ColumnChoice& choice = {}, bool may_be_empty = false);
 
 }  // namespace ndhull
