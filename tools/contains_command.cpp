@@ -52,7 +52,11 @@ std::int64_t plane_of(const PlaneDistance& query) {
 /// Without planes nothing is outside, however far.
 std::vector<PlaneDistance> distances_of(const PointFile& queries, const HalfspaceFile& planes,
                                         unsigned threads) {
-  if (planes.count > 0) return distances_to_planes(queries.view(), planes.rows, threads);
+  if (planes.count > 0) {
+    std::vector<PlaneDistance> distances = distances_to_planes(queries.view(), planes.rows, threads);
+    for (PlaneDistance& query : distances) query.plane = planes.row_of(query.plane);
+    return distances;
+  }
   fmt::print(stderr, "ndhull: warning: {}: found no planes: every query is inside\n", planes.path);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return std::vector<PlaneDistance>(queries.view().rows,
@@ -99,6 +103,7 @@ void run_contains(const ContainsArguments& arguments) {
                 "contains: found - for both, expected one of them in a file: standard input is read once");
   }
   const HalfspaceFile planes = read_halfspaces(arguments.planes);
+  planes.require_possible();
   const PointFile queries = read_points(arguments.queries, arguments.columns);
   check_outputs_are_writable({{"--output", arguments.output, OutputKind::kNumbers}},
                              {arguments.planes, arguments.queries});

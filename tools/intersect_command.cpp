@@ -119,7 +119,9 @@ void add_intersect_command(CLI::App& app, int& exit_code) {
       ->required();
   add_options(*command, *arguments);
   command->footer(
-      "HALFSPACES: .ine (cdd, lrs), .npy (rows normal, offset), Qhull text or columns; a point \"d 1\" in "
+      "HALFSPACES: .ine (cdd, lrs), .npy (rows normal, offset), Qhull text or columns. Rows of .ine that "
+      "the\n"
+      "option linearity names are equations: their weight in a proof may be negative. A point \"d 1\" in "
       "front\n"
       "is taken for --interior-point. Halfspaces and vertices count from 0. FILE may be - for standard "
       "output.\n"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
+#include "tools/io/halfspace_numbers.h"
 #include "tools/io/halfspace_reader.h"
 #include "tools/io/intersection_writer.h"
 #include "tools/io/output_file.h"
@@ -34,7 +36,8 @@ std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
 
 /// What no halfspaces leave.
 HalfspaceIntersection whole_space(std::size_t dimension) {
-  HalfspaceIntersection space{.kind = IntersectionKind::kUnbounded};
+  HalfspaceIntersection space;
+  space.kind = IntersectionKind::kUnbounded;
   space.dimension = space.rank = dimension;
   space.interior_point.assign(dimension, 0.0);
   space.inner_radius = std::numeric_limits<double>::infinity();
@@ -43,12 +46,30 @@ HalfspaceIntersection whole_space(std::size_t dimension) {
   return space;
 }
 
+/// A row that holds nowhere proves it alone.
+HalfspaceIntersection nothing(const HalfspaceFile& file) {
+  HalfspaceIntersection empty;
+  empty.kind = IntersectionKind::kEmpty;
+  empty.dimension = file.dimension;
+  empty.halfspace_count = file.file_row_count;
+  empty.proof.push_back({file.impossible->row, file.impossible->offset > 0.0 ? 1.0 : -1.0});
+  empty.proof_gap = std::abs(file.impossible->offset);
+  return empty;
+}
+
 /// What is thrown of the halfspaces names their file.
 HalfspaceIntersection intersect_file(const HalfspaceFile& file, const IntersectionOptions& options) {
-  if (file.count == 0) return whole_space(file.dimension);
+  if (file.impossible) return nothing(file);
+  if (file.count == 0) {
+    HalfspaceIntersection space = whole_space(file.dimension);
+    space.halfspace_count = file.file_row_count;
+    return space;
+  }
   try {
-    return intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1),
-                                options);
+    HalfspaceIntersection intersection =
+        intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1), options);
+    number_as_in_file(intersection, file);
+    return intersection;
   } catch (const Error& error) {
     throw Error(error.code(), file.path + ": " + error.what());
   }

@@ -27,7 +27,10 @@ PlaneCheck verify_files(const std::string& points_path, const std::string& plane
                     "points",
                     planes.path, planes.dimension, points.view().dimension, points.path));
   }
-  return check_planes(points.view(), planes.rows, threads);
+  planes.require_possible();
+  PlaneCheck check = check_planes(points.view(), planes.rows, threads);
+  if (check.pairs > 0) check.worst_plane = planes.row_of(check.worst_plane);
+  return check;
 }
 
 std::string describe(const PlaneCheck& check) {

@@ -239,4 +239,44 @@ def test_round_trips_keep_vertices_and_facets():
         assert counts[0] == counts[1], (arguments, counts)
 
 
+def test_equations_and_rows_without_normals_of_cdd():
+    """The rows of the file are named: x = 1/2 in the unit cube, between rows that hold everywhere."""
+    folder = fresh_folder("equations")
+    cube = ["1 0 0 0"] + [f"{b} " + " ".join(str(s if j == k else 0) for j in range(3))
+                          for k in range(3) for b, s in ((0, 1), (1, -1))]  # fmt: skip
+    rows = [*cube, "-1 2 0 0", "0 0 0 0"]
+    path = folder / "slice.ine"
+    head = f"begin\n{len(rows)} 4 integer\n"
+    path.write_text("H-representation\nlinearity 2 8 9\n" + head + "\n".join(rows) + "\nend\n")
+    report = json.loads(run("intersect", path, "--report", "-", "--vertex-list").stdout)
+    assert report["status"] == "lower-dimensional" and report["rank"] == 2
+    assert report["input"]["halfspaces"] == 9 and report["equalities"] == [7]
+    assert report["non_redundant"] == [3, 4, 5, 6]
+    corners = sorted(tuple(round(value, 9) for value in vertex["point"]) for vertex in report["vertex_list"])
+    assert corners == [(0.5, y, z) for y in (0, 1) for z in (0, 1)]
+    assert all(set(vertex["halfspaces"]) <= {3, 4, 5, 6} for vertex in report["vertex_list"])
+    lines = run("intersect", path, "--format", "FN").stdout.splitlines()
+    assert [len(line.split()) for line in lines] == [1, 1, 1, 1, 3, 3, 3, 3, 1, 1]
+    numpy.save(folder / "queries.npy", [[0.5, 0.5, 0.5], [0.25, 0.5, 0.5], [0.5, 0.5, 2.0]])
+    answers = [line.split() for line in run("contains", path, folder / "queries.npy").stdout.splitlines()]
+    assert [answer[2] for answer in answers] == ["inside", "outside", "outside"]
+    assert [(float(a), int(b)) for a, b, _ in answers[1:]] == [(0.25, 7), (1.0, 6)]
+    assert "plane 6 distance 1" in run("verify", folder / "queries.npy", path, exit_code=2).stdout
+    # Two equations that miss each other, and a row that holds nowhere: empty, by rows of the file.
+    path.write_text("linearity 2 2 3\nbegin\n3 2 integer\n1 0\n-1 1\n-2 1\nend\n")
+    report = json.loads(run("intersect", path, "--report", "-").stdout)
+    weights = {term["halfspace"]: term["weight"] for term in report["proof"]["combination"]}
+    assert report["status"] == "empty" and sorted(weights) == [1, 2]
+    assert abs(weights[1] + weights[2]) < 1e-12 and abs(report["proof"]["gap"] - 0.5) < 1e-12
+    for offset, line, weight in ((-3, "", 1), (3, "linearity 1 2\n", -1)):
+        path.write_text(f"{line}begin\n2 2 integer\n1 -1\n{offset} 0\nend\n")
+        proof = json.loads(run("intersect", path, "--report", "-").stdout)["proof"]
+        assert proof["combination"] == [{"halfspace": 1, "weight": weight}] and proof["gap"] == 3
+        numpy.save(folder / "one.npy", [[0.0]])
+        one_error_line(run("contains", path, folder / "one.npy", exit_code=1), "bad-halfspace")
+        one_error_line(run("verify", folder / "one.npy", path, exit_code=1), "bad-halfspace")
+    path.write_text("begin\n1 3 integer\n1 0 0\nend\n")
+    assert json.loads(run("intersect", path, "--report", "-").stdout)["status"] == "unbounded"
+
+
 run_tests(globals())

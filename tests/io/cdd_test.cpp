@@ -137,13 +137,44 @@ TEST(HalfspaceExample, OneHalfspaceIsNotTakenForAnInteriorPoint) {
   EXPECT_EQ(file.rows, (Values{1, 0, -1}));
 }
 
+TEST(HalfspaceExample, EquationsAreTwoHalfspacesAndRowsThatHoldEverywhereAreNone) {
+  const std::string rows = "begin\n4 3 integer\n1 -1 0\n1 0 0\n0 0 0\n2 0 1\nend\n";
+  for (const std::string& content : {"H-representation\nlinearity 1 4\n" + rows, rows + "equality 1 4\n",
+                                     "linearity 3  4 3 4 # the last\n" + rows}) {
+    SCOPED_TRACE(content);
+    const HalfspaceFile file = halfspaces(content, "a.ine");
+    EXPECT_EQ(file.rows, (Values{1, 0, -1, 0, -1, -2, 0, 1, 2}));
+    EXPECT_EQ(file.count, 3U);
+    EXPECT_EQ(file.file_row, (std::vector<std::uint32_t>{0, 3, 3}));
+    EXPECT_EQ(file.is_reversed, (std::vector<bool>{false, false, true}));
+    EXPECT_EQ(file.file_row_count, 4U);
+    EXPECT_FALSE(file.impossible.has_value());
+  }
+  EXPECT_EQ(halfspaces("linearity 0\n" + rows, "a.ine").rows, (Values{1, 0, -1, 0, -1, -2}));
+}
+
+TEST(HalfspaceExample, ARowThatHoldsNowhereIsKept) {
+  const std::string rows = "begin\n2 3 integer\n1 -1 0\n-2 0 0\nend\n";
+  const HalfspaceFile file = halfspaces(rows, "a.ine");
+  ASSERT_TRUE(file.impossible.has_value());
+  EXPECT_EQ(file.impossible->row, 1U);
+  EXPECT_EQ(file.impossible->offset, 2.0);
+  expect_error(ErrorCode::kBadHalfspace, "a.ine, row 1 (counted from 0)", [&] { file.require_possible(); });
+  const std::string positive = "linearity 1 2\nbegin\n2 3 integer\n1 -1 0\n2 0 0\nend\n";
+  ASSERT_TRUE(halfspaces(positive, "a.ine").impossible.has_value());
+  EXPECT_EQ(halfspaces(positive, "a.ine").impossible->offset, -2.0);
+}
+
 TEST(HalfspaceRefusedExample, EquationsPointsAndZeroNormals) {
-  const std::string rows = "begin\n2 3 integer\n1 -1 0\n1 0 0\nend\n";
-  expect_halfspaces_refused(ErrorCode::kBadHeader, "line 2: found equations (option linearity)",
-                            "H-representation\nlinearity 1 1\n" + rows);
-  expect_halfspaces_refused(ErrorCode::kBadHeader, "line 6: found equations", rows + "linearity 1 1\n");
+  const std::string rows = "begin\n2 3 integer\n1 -1 0\n1 0 1\nend\n";
+  for (const char* list : {"linearity\n", "linearity 2 1\n", "linearity 1 1 2\n", "linearity 1 0\n",
+                           "linearity 1 3\n", "linearity 1 1\nlinearity 1 2\n"}) {
+    SCOPED_TRACE(list);
+    expect_halfspaces_refused(ErrorCode::kBadHeader, "line ", "H-representation\n" + (list + rows));
+  }
+  expect_halfspaces_refused(ErrorCode::kBadNumber, "line 6: column 3: found \"x\"", rows + "linearity 1 x\n");
+  expect_halfspaces_refused(ErrorCode::kBadHeader, "strict_inequality", "strict_inequality 1 1\n" + rows);
   expect_halfspaces_refused(ErrorCode::kBadHeader, "ndhull hull", "V-representation\n" + rows);
-  expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 1 (counted from 0)", rows);
   expect_halfspaces_refused(ErrorCode::kBadHalfspace, "halfspace 0 (counted from 0)", "3\n1\n0 -0 1\n",
                             "a.txt");
 }

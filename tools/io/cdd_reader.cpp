@@ -170,6 +170,39 @@ void read_matrix(const TextSource& source, const MatrixHeader& header, const cha
   }
 }
 
+/// The rows that "linearity k i1 .. ik" names, counted from 1 in the file.
+void read_linearity(const TextSource& source, CddMatrix& matrix) {
+  const Line line = line_at(source, matrix.linearity);
+  const char* const end = line.text.data() + line.text.size();
+  const char* at = std::find_if(line.text.data(), end, is_blank);
+  std::vector<std::size_t> numbers;
+  for (at = skip_blanks(at, end); at != end && *at != '#'; at = skip_blanks(at, end)) {
+    std::size_t number = 0;
+    const char* const stop = parse_count(at, end, number);
+    if (stop == nullptr || (stop != end && !is_blank(*stop))) source.fail_number(at, numbers.size() + 2);
+    numbers.push_back(number);
+    at = stop;
+  }
+  if (numbers.empty() || numbers[0] != numbers.size() - 1) {
+    source.fail(
+        ErrorCode::kBadHeader, line.start,
+        fmt::format("found {} numbers, expected how many rows are equations and then these rows, from 1; "
+                    "correct the line",
+                    numbers.size()));
+  }
+  for (std::size_t k = 1; k < numbers.size(); ++k) {
+    if (numbers[k] == 0 || numbers[k] > matrix.table.rows) {
+      source.fail(
+          ErrorCode::kBadHeader, line.start,
+          fmt::format("found row {}, expected 1 to {}; correct the line", numbers[k], matrix.table.rows));
+    }
+    matrix.equations.push_back(numbers[k] - 1);
+  }
+  std::sort(matrix.equations.begin(), matrix.equations.end());
+  matrix.equations.erase(std::unique(matrix.equations.begin(), matrix.equations.end()),
+                         matrix.equations.end());
+}
+
 }  // namespace
 
 bool looks_like_cdd(const TextSource& source) {
@@ -187,8 +220,18 @@ CddMatrix read_cdd(const TextSource& source, bool may_be_empty) {
   source.require_content();
   CddMatrix matrix;
   const auto note_option = [&](const Line& line) {
-    for (const std::string_view name : {"linearity", "equality", "strict_inequality"}) {
-      if (starts_with_word(line.text, name) && matrix.linearity == nullptr) matrix.linearity = line.start;
+    if (starts_with_word(line.text, "strict_inequality")) {
+      source.fail(
+          ErrorCode::kBadHeader, line.start,
+          "found the option strict_inequality, expected halfspaces with their planes; remove the line");
+    }
+    for (const std::string_view name : {"linearity", "equality"}) {
+      if (!starts_with_word(line.text, name)) continue;
+      if (matrix.linearity != nullptr) {
+        source.fail(ErrorCode::kBadHeader, line.start,
+                    "found a second list of equations, expected one; join the lines");
+      }
+      matrix.linearity = line.start;
     }
   };
 
@@ -226,6 +269,7 @@ CddMatrix read_cdd(const TextSource& source, bool may_be_empty) {
     note_option(line);
     place = line.next;
   }
+  if (matrix.linearity != nullptr) read_linearity(source, matrix);
   return matrix;
 }
 

@@ -14,6 +14,7 @@ struct CddMatrix {
   NumberTable table;                   ///< columns = dimension + 1, the first column still in front
   std::vector<const char*> row_place;  ///< where each row begins, for messages
   const char* linearity = nullptr;     ///< place of a linearity (or equality) option, or null
+  std::vector<std::size_t> equations;  ///< rows from 0 that it names, ascending
 };
 
 /// Is there a line `begin` before the first line of numbers?
@@ -25,6 +26,7 @@ bool looks_like_cdd(const TextSource& source);
 /// Throws  kEmptyInput   nothing at all, or 0 rows
 ///         kBadHeader    no `begin`, or not "rows columns type" below it
 ///         kDimensionTooLow  fewer than 2 columns
+///         kBadHeader    linearity without the numbers of rows, or strict_inequality
 ///         kBadNumber, kNotFinite, kRaggedRow, kWrongCount (`end` too early, too late or missing)
 /// `may_be_empty`: 0 rows are no error.
 CddMatrix read_cdd(const TextSource& source, bool may_be_empty = false);

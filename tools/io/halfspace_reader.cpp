@@ -16,6 +16,7 @@
 namespace ndhull {
 namespace {
 
+/// Rows that hold everywhere are left out, and the reverse of an equation follows the others.
 /// b0 + a'.x >= 0 is -a'.x - b0 <= 0. Subtracting from zero instead of negating leaves no minus zeros.
 HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& extension) {
   CddMatrix matrix = read_cdd(source, true);
@@ -27,21 +28,38 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
                     "hull, or state H-representation before begin",
                     source.name()));
   }
-  if (matrix.linearity != nullptr) {
-    source.fail(
-        ErrorCode::kBadHeader, matrix.linearity,
-        "found equations (option linearity), expected inequalities only; eliminate one variable for each "
-        "equation");
-  }
   HalfspaceFile file;
   const NumberTable& table = matrix.table;
   file.dimension = table.columns - 1;
-  file.count = table.rows;
+  file.file_row_count = table.rows;
   file.rows.reserve(table.values.size());
-  for (std::size_t row = 0; row < table.rows; ++row) {
+  std::vector<std::uint32_t> halfspace_rows, equation_rows;
+  for (std::size_t at = 0; at < table.rows; ++at) {
+    const auto row = static_cast<std::uint32_t>(at);
     const double* const from = table.values.data() + row * table.columns;
-    for (std::size_t k = 1; k < table.columns; ++k) file.rows.push_back(0.0 - from[k]);
-    file.rows.push_back(0.0 - from[0]);
+    const bool is_equation = std::binary_search(matrix.equations.begin(), matrix.equations.end(), row);
+    if (std::all_of(from + 1, from + table.columns, [](double component) { return component == 0.0; })) {
+      // cdd and lrs write 1 0 .. 0, the halfspace at infinity.
+      const bool holds = is_equation ? from[0] == 0.0 : from[0] >= 0.0;
+      if (!holds && !file.impossible) file.impossible = {row, 0.0 - from[0]};
+      continue;
+    }
+    halfspace_rows.push_back(row);
+    if (is_equation) equation_rows.push_back(row);
+  }
+  const auto add = [&](std::uint32_t row, double sign) {
+    const double* const from = table.values.data() + row * table.columns;
+    for (std::size_t k = 1; k < table.columns; ++k) file.rows.push_back(0.0 - sign * from[k]);
+    file.rows.push_back(0.0 - sign * from[0]);
+    file.file_row.push_back(row);
+    file.is_reversed.push_back(sign < 0.0);
+  };
+  for (const std::uint32_t row : halfspace_rows) add(row, 1.0);
+  for (const std::uint32_t row : equation_rows) add(row, -1.0);
+  file.count = file.file_row.size();
+  if (equation_rows.empty() && file.count == table.rows) {
+    file.file_row.clear();
+    file.is_reversed.clear();
   }
   return file;
 }
@@ -131,6 +149,15 @@ void check(const HalfspaceFile& file) {
 
 }  // namespace
 
+void HalfspaceFile::require_possible() const {
+  if (!impossible) return;
+  throw Error(
+      ErrorCode::kBadHalfspace,
+      fmt::format("{}, row {} (counted from 0): found a zero normal with the offset {}, expected a row "
+                  "that holds somewhere; remove it",
+                  path, impossible->row, impossible->offset));
+}
+
 HalfspaceFile read_halfspaces(const std::string& path) {
   return parse_halfspaces(FileBytes::read(path), path);
 }
@@ -148,6 +175,7 @@ HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path) {
     file = is_cdd ? read_cdd_halfspaces(source, extension) : read_text_halfspaces(source, extension);
   }
   file.path = name;
+  if (file.file_row_count == 0) file.file_row_count = file.count;
   check(file);
   return file;
 }

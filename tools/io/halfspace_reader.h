@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,24 @@ struct HalfspaceFile {
   std::vector<double> rows;
   std::optional<std::vector<double>> interior_point;  ///< when the file has one in front
   std::string path;                                   ///< as given, "standard input" for "-"
+
+  /// Equations of an .ine file are two halfspaces, and rows that hold everywhere are none. Then the row of
+  /// the file, from 0, that each halfspace is from; empty where they are the rows.
+  std::vector<std::uint32_t> file_row;
+  std::vector<bool> is_reversed;  ///< as file_row: the second halfspace of an equation
+  std::size_t file_row_count = 0;
+  /// A row of the file that holds nowhere: its normal is zero, and its offset has this size.
+  struct ImpossibleRow {
+    std::uint32_t row;
+    double offset;  ///< > 0 as a halfspace is written here; an equation may have it < 0
+  };
+  std::optional<ImpossibleRow> impossible;
+
+  std::uint32_t row_of(std::size_t halfspace) const {
+    return file_row.empty() ? static_cast<std::uint32_t>(halfspace) : file_row[halfspace];
+  }
+  /// Throws kBadHalfspace when there is an impossible row: the planes of the others tell nothing then.
+  void require_possible() const;
 };
 
 /// Reads halfspaces.
@@ -27,8 +46,7 @@ struct HalfspaceFile {
 /// Formats   .ine (H-representation of cdd and lrs: a row b0 a' says b0 + a'.x >= 0, and is turned round),
 ///           .npy (rows normal, offset), otherwise text: Qhull's (`n`, `Fo`: dimension + 1, count, rows;
 ///           a point "dimension 1" may stand in front, as option FV writes it), or columns.
-/// Throws    Error as read_points does; kBadHeader also for linearity (equations); kBadHalfspace for a
-///           row whose normal is zero.
+/// Throws    Error as read_points does; kBadHalfspace for a row whose normal is zero, but in .ine files.
 HalfspaceFile read_halfspaces(const std::string& path);
 
 /// The same for bytes at hand; `path` tells the extension and the name in messages.

@@ -14,6 +14,7 @@
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/io/cdd_reader.h"
+#include "tools/io/halfspace_numbers.h"
 #include "tools/io/halfspace_reader.h"
 #include "tools/io/intersection_writer.h"
 #include "tools/io/output_file.h"
@@ -93,7 +94,7 @@ bool is_below_all(const HalfspaceIntersection& region, const HalfspaceFile& file
     fmt::print(
         stderr,
         "ndhull: verify: intersection point {} is {:.3g} above halfspace {}, expected at most {:.3g}\n",
-        vertex, distances[vertex].distance, distances[vertex].plane, allowed);
+        vertex, distances[vertex].distance, file.row_of(distances[vertex].plane), allowed);
     return false;
   }
   return true;
@@ -107,6 +108,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   const std::string invocation = invocation_of(bytes.view(), command);
   if (command.is_cdd) check_cdd(bytes, command.input_path);
   const HalfspaceFile file = parse_halfspaces(std::move(bytes), command.input_path);
+  file.require_possible();
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   IntersectionOptions options;
   options.interior_point = file.interior_point;
@@ -120,8 +122,9 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   options.stop = interrupt.token();
   interrupt.arm();
   const Clock::time_point start = Clock::now();
-  const HalfspaceIntersection region =
+  HalfspaceIntersection region =
       intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1), options);
+  number_as_in_file(region, file);
   const double seconds = seconds_since(start);
   if (region.kind != IntersectionKind::kBounded && region.kind != IntersectionKind::kLowerDimensional) {
     throw Error(ErrorCode::kBadHalfspace,
