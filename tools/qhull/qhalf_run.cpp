@@ -19,6 +19,8 @@
 #include "tools/io/intersection_writer.h"
 #include "tools/io/output_file.h"
 #include "tools/io/point_reader.h"
+#include "tools/io/qhull_formats.h"
+#include "tools/qhull/open_intersection.h"
 #include "tools/qhull/qhull_run.h"
 
 namespace ndhull {
@@ -43,34 +45,34 @@ void write_statistics(OutputFile& file, const HalfspaceIntersection& region) {
   file.print("2 {:6.16g} {:6.16g}\n", region.max_residual, -region.max_residual);
 }
 
-std::string summary_of(const HalfspaceIntersection& region, const std::string& invocation, double seconds) {
+/// What the summary says of either kind of intersection.
+struct RegionCounts {
+  std::size_t dimension, halfspaces, non_redundant, points, open_points;
+  double max_residual;
+};
+
+std::string summary_of(const RegionCounts& counts, const std::string& invocation, double seconds) {
   std::string text = fmt::format("\nHalfspace intersection by the convex hull of {} points in {}-d:\n\n",
-                                 region.halfspace_count, region.dimension);
-  text += fmt::format("  Number of halfspaces: {}\n", region.halfspace_count);
-  text += fmt::format("  Number of non-redundant halfspaces: {}\n", region.non_redundant.size());
-  text += fmt::format("  Number of intersection points: {}\n", region.vertex_count());
+                                 counts.halfspaces, counts.dimension);
+  text += fmt::format("  Number of halfspaces: {}\n", counts.halfspaces);
+  text += fmt::format("  Number of non-redundant halfspaces: {}\n", counts.non_redundant);
+  text += fmt::format("  Number of intersection points: {}\n", counts.points);
+  if (counts.open_points > 0) text += fmt::format("  Number of these at infinity: {}\n", counts.open_points);
   text += fmt::format("\nStatistics for: {}\n\n", invocation);
   text += fmt::format("  CPU seconds to compute hull (after input): {:.4g}\n", seconds);
   text +=
-      fmt::format("  Maximum distance of intersection point to halfspace: {:.2g}\n\n", region.max_residual);
+      fmt::format("  Maximum distance of intersection point to halfspace: {:.2g}\n\n", counts.max_residual);
   return text;
 }
 
-void print_all(const HalfspaceIntersection& region, const QhullCommand& command,
-               const std::string& invocation, double seconds) {
+/// Prints the formats by `write_format`, and the summary where Qhull does: to the output where it is all
+/// there is to print and nobody asked for it, else to standard error.
+template <class WriteFormat>
+void print_all(const QhullCommand& command, const std::string& summary, const WriteFormat& write_format) {
   OutputFile file(command.output_path);
-  for (const std::string& format : command.formats) {
-    if (format == "Fs") {
-      write_statistics(file, region);
-    } else if (format == "FQ") {
-      file.print("{}\n", invocation);
-    } else {
-      write_intersection_formats(file, {format}, region);
-    }
-  }
-  const std::string summary = summary_of(region, invocation, seconds);
-  const bool is_summary_all = command.formats.empty();
-  if (is_summary_all || (command.has_summary && command.diagnostics_to_stdout)) {
+  for (const std::string& format : command.formats) write_format(file, format);
+  const bool is_result = command.formats.empty() && !command.has_summary;
+  if (is_result || (command.has_summary && command.diagnostics_to_stdout)) {
     file.write(summary);
   } else if (command.has_summary) {
     std::fputs(summary.c_str(), stderr);
@@ -78,19 +80,57 @@ void print_all(const HalfspaceIntersection& region, const QhullCommand& command,
   file.commit();
 }
 
+void print_region(const HalfspaceIntersection& region, const QhullCommand& command,
+                  const std::string& invocation, double seconds) {
+  const RegionCounts counts{
+      region.dimension,   region.halfspace_count, region.non_redundant.size(), region.vertex_count(), 0,
+      region.max_residual};
+  print_all(command, summary_of(counts, invocation, seconds), [&](OutputFile& file, const auto& format) {
+    if (format == "Fs") {
+      write_statistics(file, region);
+    } else if (format == "FQ") {
+      file.print("{}\n", invocation);
+    } else {
+      write_intersection_formats(file, {format}, region);
+    }
+  });
+}
+
+/// All formats but the points are those of the dual hull.
+void print_open(const OpenIntersection& open, const QhullCommand& command, const std::string& invocation,
+                double seconds) {
+  const Hull& dual = open.hull;
+  QhullPrint print(dual, open.dual_view());
+  print.invocation = invocation;
+  const RegionCounts counts{dual.dimension,     dual.point_count, dual.vertices.size(),
+                            dual.facet_count(), open.open_facets, open.max_residual};
+  print_all(command, summary_of(counts, invocation, seconds), [&](OutputFile& file, const auto& format) {
+    if (format != "Fp") return write_qhull_format(file, format, print);
+    file.print("{}\n{}\n", dual.dimension, dual.facet_count());
+    for (std::size_t at = 0; at < open.points.size(); at += dual.dimension)
+      print_row(file, {open.points.data() + at, dual.dimension});
+  });
+  if (command.hides_warnings) return;
+  fmt::print(stderr,
+             "ndhull: warning: the intersection has no end: {} of {} intersection points are at infinity and "
+             "printed as {}\n",
+             open.open_facets, dual.facet_count(), kNoIntersectionPoint);
+}
+
 /// Is every vertex below every halfspace, up to what its own coordinates and its planes are rounded by?
-bool is_below_all(const HalfspaceIntersection& region, const HalfspaceFile& file, unsigned threads) {
-  const PointView vertices =
-      PointView::row_major(region.vertices.data(), region.vertex_count(), region.dimension);
+bool is_below_all(const std::vector<double>& points, double max_residual, const HalfspaceFile& file,
+                  unsigned threads) {
+  const std::size_t dimension = file.dimension;
+  const PointView vertices = PointView::row_major(points.data(), points.size() / dimension, dimension);
   const auto distances = distances_to_planes(vertices, file.rows, threads);
-  const double rounding = 0x1p-51 * static_cast<double>(region.dimension);
+  const double rounding = 0x1p-51 * static_cast<double>(dimension);
   for (std::size_t vertex = 0; vertex < distances.size(); ++vertex) {
     double largest = 0.0;
-    for (std::size_t k = 0; k < region.dimension; ++k) {
+    for (std::size_t k = 0; k < dimension; ++k) {
       largest = std::max(largest, std::abs(vertices.at(vertex, k)));
     }
-    const double allowed = 2.0 * region.max_residual + rounding * largest;
-    if (distances[vertex].distance <= allowed) continue;
+    const double allowed = 2.0 * max_residual + rounding * largest;
+    if (distances[vertex].distance <= allowed || vertices.at(vertex, 0) == kNoIntersectionPoint) continue;
     fmt::print(
         stderr,
         "ndhull: verify: intersection point {} is {:.3g} above halfspace {}, expected at most {:.3g}\n",
@@ -98,6 +138,21 @@ bool is_below_all(const HalfspaceIntersection& region, const HalfspaceFile& file
     return false;
   }
   return true;
+}
+
+/// Nothing has a dual hull: the intersection is empty, or without end and flat or by too few halfspaces.
+Error no_points(const HalfspaceIntersection& region, const std::string& path) {
+  if (region.kind == IntersectionKind::kEmpty) {
+    return {ErrorCode::kBadHalfspace,
+            fmt::format("{}: found an intersection that is {}, expected points inside all halfspaces; remove "
+                        "one of these",
+                        path, describe_without_vertices(region))};
+  }
+  return {ErrorCode::kBadHalfspace,
+          fmt::format("{}: found an intersection that is {}, of {} halfspaces whose dual points span fewer "
+                      "than {} dimensions, expected {} or more in general position; add halfspaces far away",
+                      path, describe_without_vertices(region), region.halfspace_count, region.dimension,
+                      region.dimension + 1)};
 }
 
 }  // namespace
@@ -124,16 +179,26 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   const Clock::time_point start = Clock::now();
   HalfspaceIntersection region =
       intersect_halfspaces(PointView::row_major(file.rows.data(), file.count, file.dimension + 1), options);
-  number_as_in_file(region, file);
-  const double seconds = seconds_since(start);
-  if (region.kind != IntersectionKind::kBounded && region.kind != IntersectionKind::kLowerDimensional) {
-    throw Error(ErrorCode::kBadHalfspace,
-                fmt::format("{}: found an intersection that is {}, expected a bounded one; add or remove "
-                            "halfspaces",
-                            file.path, describe_without_vertices(region)));
+  const bool is_open = region.kind == IntersectionKind::kUnbounded && region.rank == file.dimension &&
+                       file.count > region.rank;
+  if (is_open) {
+    HullOptions dual;
+    dual.threads = threads;
+    dual.stop = options.stop;
+    const OpenIntersection open = open_intersection(file, region.interior_point, dual);
+    if (open.hull.rank < file.dimension) throw no_points(region, file.path);
+    if (command.verify && !is_below_all(open.points, open.max_residual, file, threads))
+      return kVerificationFailedExitCode;
+    print_open(open, command, invocation, seconds_since(start));
+  } else {
+    number_as_in_file(region, file);
+    const double seconds = seconds_since(start);
+    if (region.kind == IntersectionKind::kEmpty || region.kind == IntersectionKind::kUnbounded)
+      throw no_points(region, file.path);
+    if (command.verify && !is_below_all(region.vertices, region.max_residual, file, threads))
+      return kVerificationFailedExitCode;
+    print_region(region, command, invocation, seconds);
   }
-  if (command.verify && !is_below_all(region, file, threads)) return kVerificationFailedExitCode;
-  print_all(region, command, invocation, seconds);
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -74,8 +74,10 @@ void add_qhalf_command(CLI::App& app, int& exit_code) {
       "Print    Fp (vertices) Fv i (their halfspaces) Fn (their neighbours) Fx (non-redundant halfspaces)\n"
       "         FN (their vertices) FQ Fs s, TO FILE Tz\n"
       "Run      Tv checks that no vertex is above a halfspace\n"
-      "Vertices that coincide are one. An intersection that is empty or not bounded is an error that says "
-      "why.\n"
+      "Vertices that coincide are one. Where the intersection has no end the points are those of the dual "
+      "hull\n"
+      "about the interior point, as Qhull's: at infinity they are printed as -10.101. An empty one is an "
+      "error.\n"
       "Exit code: 0 written, 1 usage or input, 2 Tv failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull rbox c | ndhull qhull \"FV n\" | ndhull qhalf \"H0,0,0 Fp\""));

@@ -16,8 +16,8 @@ int run_qhull(const QhullCommand& command, unsigned threads);
 /// The same for `ndhull qhalf`: reads halfspaces and prints their intersection.
 ///
 /// Returns  0; 2 when a vertex is above a halfspace by more than its rounding and Tv was given.
-/// Throws   Error as read_halfspaces and intersect_halfspaces do; kBadHalfspace when the intersection is
-///          empty, not bounded or lower-dimensional without vertices.
+/// Throws   Error as read_halfspaces, intersect_halfspaces and open_intersection do; kBadHalfspace when the
+///          intersection is empty, or has no end and is flat or of halfspaces too few for a dual hull.
 int run_qhalf(const QhullCommand& command, unsigned threads);
 
 /// "rbox 10 D3 | qhull FQ": the comment behind the dimension in the input's first line, and the command.
