@@ -123,7 +123,10 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
     OutputFile file("-");
     std::optional<std::span<const FacetId>> printed;
     if (selection != nullptr) printed = selection->facets;
-    write_qhull_formats(file, request.formats, QhullPrint(hull, points, printed));
+    QhullPrint print(hull, points, printed);
+    print.invocation = fmt::format(
+        "ndhull hull {}", request.shards_pattern.empty() ? request.points_path : request.shards_pattern);
+    write_qhull_formats(file, request.formats, print);
     file.commit();
   }
 }

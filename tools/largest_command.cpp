@@ -3,7 +3,9 @@
 #include <memory>
 #include <string>
 
+#include "core/error.h"
 #include "tools/command_line/command_options.h"
+#include "tools/largest_formats.h"
 #include "tools/largest_run.h"
 
 namespace ndhull {
@@ -12,7 +14,8 @@ namespace {
 /// The options as they are written; `request` has the others.
 struct LargestArguments {
   LargestRequest request;
-  std::string method, plane_kind;
+  std::string method, plane_kind, format;
+  bool has_format = false;
 };
 
 void add_search_options(CLI::App& command, LargestArguments& arguments) {
@@ -66,6 +69,12 @@ void add_output_options(CLI::App& command, LargestArguments& arguments) {
                                   ->check(path_name());
   command.add_flag("--facet-list", request.facet_list, "put planes and vertices into the report")
       ->needs(report);
+  command
+      .add_option(
+          "--format", arguments.format,
+          "print Qhull's text formats of the facets, the largest first: any of n Fo Fi FV Fx Fv Fa FC p s")
+      ->type_name("LIST")
+      ->each([&arguments](const std::string&) { arguments.has_format = true; });
   command.add_flag("--verify", request.verify,
                    "check, exactly, that no point is above an outer plane before anything is written");
   command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
@@ -78,6 +87,9 @@ LargestRequest complete_request(const LargestArguments& arguments) {
   if (arguments.method == "rays") request.options.method = LargestMethod::kRays;
   if (arguments.plane_kind == "mean") request.plane_kind = PlaneKind::kMean;
   if (arguments.plane_kind == "inner") request.plane_kind = PlaneKind::kInner;
+  request.formats = split_largest_formats(arguments.format);
+  if (arguments.has_format && request.formats.empty())
+    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fa n\"");
   return request;
 }
 

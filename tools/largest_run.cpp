@@ -6,14 +6,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
 #include "core/machine/stopwatch.h"
-#include "core/plane_value.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
 #include "tools/command_line/machine_memory.h"
@@ -24,6 +21,7 @@
 #include "tools/io/output_file.h"
 #include "tools/io/plane_writer.h"
 #include "tools/io/point_reader.h"
+#include "tools/largest_formats.h"
 
 namespace ndhull {
 namespace {
@@ -34,6 +32,7 @@ std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
   if (!request.vertices_path.empty())
     outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
   if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  if (!request.formats.empty()) outputs.push_back({"--format", "-"});
   return outputs;
 }
 
@@ -45,33 +44,10 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const LargestRe
           {"vertices", text_or_null(request.vertices_path)},
           {"report", text_or_null(request.report_path)},
           {"facet_list", request.facet_list},
+          {"format", text_or_null(fmt::format("{}", fmt::join(request.formats, " ")))},
           {"verify", request.verify},
           {"progress", request.progress},
           {"quiet", request.quiet}};
-}
-
-/// Rows normal, offset of one kind of planes of all facets.
-std::vector<double> plane_rows(const LargestFacets& found, std::span<const double> largest, PlaneKind kind) {
-  std::vector<double> rows;
-  for (const LargestFacet& facet : found.facets) {
-    rows.insert(rows.end(), facet.normal.begin(), facet.normal.end());
-    CentredPlane plane{facet.normal, found.reference, facet.centred_offset, 0.0, 1.0};
-    double offset = facet.offset;
-    if (kind == PlaneKind::kOuter) {
-      plane.claimed = facet.outer_offset;
-      offset = written_offset(plane, largest, 1.0);
-    } else if (kind == PlaneKind::kInner) {
-      plane.claimed = facet.inner_offset;
-      offset = written_offset(plane, largest, -1.0);
-    }
-    if (!std::isfinite(offset)) {
-      throw Error(ErrorCode::kNotFinite,
-                  "plane of a facet: found an offset beyond the range of doubles, expected a finite one; "
-                  "divide the coordinates by a power of two");
-    }
-    rows.push_back(offset);
-  }
-  return rows;
 }
 
 void write_results(const LargestRequest& request, const LargestFacets& found, const PointView& points,
@@ -91,13 +67,7 @@ void write_results(const LargestRequest& request, const LargestFacets& found, co
                  });
   }
   if (!request.vertices_path.empty()) {
-    std::vector<PointId> vertices;
-    for (const LargestFacet& facet : found.facets) {
-      vertices.insert(vertices.end(), facet.vertices.begin(), facet.vertices.end());
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    write_indices(request.vertices_path, vertices);
+    write_indices(request.vertices_path, vertices_of(found));
   }
 }
 
@@ -154,6 +124,12 @@ int run_largest(const LargestRequest& request) {
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
+  if (!request.formats.empty()) {
+    OutputFile file("-");
+    write_largest_formats(file, request.formats,
+                          {found, points.view(), largest, largest_summary(found, context)});
+    file.commit();
+  }
   if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
   if (!request.uses_standard_output() && !request.quiet) write_text("-", largest_summary(found, context));
   return interrupt.requested() ? kInterruptedExitCode : 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "approx/largest_report.h"
 #include "approx/planes/written_planes.h"
@@ -22,12 +23,13 @@ struct LargestRequest {
   std::string vertices_path;
   std::string report_path;
   bool facet_list = false;
+  std::vector<std::string> formats;  ///< of Qhull, to standard output
   bool verify = false;
   bool progress = false;
   bool quiet = false;
 
   bool uses_standard_output() const {
-    return planes_path == "-" || vertices_path == "-" || report_path == "-";
+    return planes_path == "-" || vertices_path == "-" || report_path == "-" || !formats.empty();
   }
 };
 

@@ -89,6 +89,32 @@ def test_min_area_and_summary():
     assert "unseen" in text and "95 % confidence" in text and "estimated recall" in text, text
 
 
+def test_formats_are_those_of_the_selection_of_hull():
+    folder = fresh_folder("largest_formats")
+    path = folder / "points.txt"
+    for name in ("60 s D4 t1", "50 D5 t2", "c D4"):
+        rbox(name, path)
+
+        def rows(command, option, form, path=path):
+            lines = run(command, path, option, 6, "--format", form).stdout.splitlines()
+            return sorted([float(word) for word in line.split()] for line in lines)
+
+        for form in ("n", "Fo", "Fi", "FV", "Fx", "Fa", "FC", "p", "Fv"):
+            one, other = rows("largest", "-n", form), rows("hull", "--largest", form)
+            assert [len(row) for row in one] == [len(row) for row in other], (name, form)
+            if form == "Fv":
+                one, other = ({tuple(sorted(row)) for row in kind if len(row) > 1} for kind in (one, other))
+                assert one == other, name
+            elif name != "c D4":  # its facets are equally large, and any may be taken
+                assert all(numpy.abs(numpy.subtract(a, b)).max() < 1e-12 for a, b in zip(one, other)), (name, form)
+    # In one run all formats are of the same facets, the largest first.
+    text = run("largest", path, "-n", 3, "--method", "rays", "--format", "Fa,n s").stdout
+    assert text.startswith("3\n") and text.splitlines()[4:6] == ["5", "3"] and "areas " in text, text
+    for form in ("Fn", "i", "FS", "zz", ""):
+        one_error_line(run("largest", path, "--format", form, exit_code=1), "usage")
+    one_error_line(run("largest", path, "--format", "n", "--report", "-", exit_code=1), "usage")
+
+
 def test_limits_end_with_a_result():
     folder = fresh_folder("largest_limits")
     path = folder / "points.npy"

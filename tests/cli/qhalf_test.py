@@ -103,10 +103,14 @@ def test_the_summary_goes_where_qhulls_goes():
     if QHALF is None:
         return
     bounded = b"3 4\n1 0 -1\n-1 0 -1\n0 1 -1\n0 -1 -1\n"
-    for stdin in (bounded, text_of(open_halfspaces(2, 12, 1))):
+    pyramid = b"4 5\n1 0 1 -1\n-1 0 1 -1\n0 1 1 -1\n0 -1 1 -1\n0 0 -1 -1\n"
+    for stdin in (bounded, text_of(open_halfspaces(2, 12, 1)), pyramid):
+        about = "H0,0,0" if stdin == pyramid else "H0,0"
         for options in ("", "s", "s Fx", "Fx", "s Tz", "s Fx Tz", "Ts", "Ts Fx"):
-            mine, qhulls = ours(f"{options} H0,0 Pp", stdin), theirs(f"{options} H0,0 Pp", stdin)
+            mine, qhulls = ours(f"{options} {about} Pp", stdin), theirs(f"{options} {about} Pp", stdin)
             for one, other in zip(mine, qhulls, strict=True):
+                lines = [[line for line in text.splitlines() if "Number of non-simplicial" in line] for text in (one, other)]
+                assert lines[0] == lines[1], (options, lines)
                 assert ("Number of halfspaces" in one) == ("Number of halfspaces" in other), (options, mine, qhulls)
 
 

@@ -342,6 +342,22 @@ def test_refusals_are_one_line_and_write_nothing():
     assert (folder / "x").read_text() == ours("n Fx", points)
 
 
+def test_hulls_summary_has_qhulls_lines():
+    folder = fresh_folder("summary")
+    for arguments in ("c D3", "40 D4 t1", "c d D4"):
+        (folder / "points").write_bytes(points_of(arguments))
+        mine = run("hull", folder / "points", "--format", "s FA").stdout.splitlines()
+        qhulls = run("qhull", "s FA Tz", stdin=points_of(arguments)).stdout.splitlines()
+        without_time = [[line for line in lines if not line.startswith(("  CPU", "Statistics"))] for lines in (mine, qhulls)]
+        assert without_time[0] == without_time[1] and len(without_time[0]) > 8, (mine, qhulls)
+        if QHULL is not None:
+            for line in theirs("s FA Tz", points_of(arguments)).splitlines():
+                if line.startswith(("Convex", "  Number of vertices", "  Number of facets", "  Number of non-simplicial")):
+                    assert line in mine, (arguments, line, mine)
+    text = run("hull", folder / "points", "--format", "Fx s FA").stdout  # one summary, where it was asked for
+    assert text.count("Number of facets") == text.count("Total volume") == 1 and text.index("Convex") > 8
+
+
 def test_summary_options_and_joggle():
     points = points_of("c D3")
     summary = ours("", points)

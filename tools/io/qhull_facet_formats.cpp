@@ -19,20 +19,24 @@ void print_row(OutputFile& file, std::span<const double> numbers) {
   file.write("\n");
 }
 
-std::vector<double> centrum(const QhullPrint& print, FacetId facet) {
-  const std::span<const PointId> vertices = print.hull.vertices_of(facet);
-  const std::span<const double> normal = print.hull.normal(facet);
-  std::vector<double> mean(print.hull.dimension, 0.0);
+std::vector<double> centrum(const PointView& points, std::span<const PointId> vertices,
+                            std::span<const double> normal, double offset) {
+  std::vector<double> mean(points.dimension, 0.0);
   for (const PointId vertex : vertices) {
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += print.points.at(vertex.value, k);
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += points.at(vertex.value, k);
   }
-  double distance = print.hull.offset(facet);
+  double distance = offset;
   for (std::size_t k = 0; k < mean.size(); ++k) {
     mean[k] /= static_cast<double>(vertices.size());
     distance += normal[k] * mean[k];
   }
   for (std::size_t k = 0; k < mean.size(); ++k) mean[k] -= distance * normal[k];
   return mean;
+}
+
+std::vector<double> centrum(const QhullPrint& print, FacetId facet) {
+  const Hull& hull = print.hull;
+  return centrum(print.points, hull.vertices_of(facet), hull.normal(facet), hull.offset(facet));
 }
 
 void write_planes_format(OutputFile& file, std::string_view format, const QhullPrint& print) {

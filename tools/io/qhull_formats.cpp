@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -66,11 +66,7 @@ std::vector<PointId> vertices_of(const Hull& hull, std::span<const FacetId> face
   return vertices;
 }
 
-/// The widest offsets of all facets in input units.
-struct InputOffsets {
-  double outer = 0.0;
-  double inner = 0.0;
-};
+}  // namespace
 
 InputOffsets input_offsets(const Hull& hull) {
   // Without a unit cube the certified extremes are in input units already.
@@ -84,8 +80,6 @@ InputOffsets input_offsets(const Hull& hull) {
   }
   return offsets;
 }
-
-}  // namespace
 
 QhullPrint::QhullPrint(const Hull& printed_hull, const PointView& printed_points,
                        std::optional<std::span<const FacetId>> selection)
@@ -128,24 +122,11 @@ void write_qhull_formats(OutputFile& file, std::span<const std::string> formats,
   for (const std::string& format : formats) {
     write_qhull_format(file, format, print);
     if ((format != "s" && format != "FA") || has_summary) continue;
-    file.print("{}", qhull_summary(print, with_area));
+    const auto& phases = print.hull.statistics.seconds;
+    file.write(qhull_summary(
+        print, {.with_area = with_area, .seconds = std::accumulate(phases.begin(), phases.end(), 0.0)}));
     has_summary = true;
   }
-}
-
-std::string qhull_summary(const QhullPrint& print, bool with_area) {
-  const Hull& hull = print.hull;
-  const InputOffsets offsets = input_offsets(hull);
-  std::string text = fmt::format("hull      {} points in dimension {}, rank {}, {}\n", hull.point_count,
-                                 hull.dimension, hull.rank, to_string(hull.status));
-  text += fmt::format("vertices  {}\n", hull.vertices.size());
-  text += fmt::format("facets    {}, simplicial {}\n", hull.facet_count(), hull.simplicial_facet_count());
-  if (print.facets.size() != hull.facet_count()) {
-    text += fmt::format("selected  facets {}, vertices {}\n", print.facets.size(), print.vertices.size());
-  }
-  if (with_area) text += fmt::format("size      area {:.8g}, volume {:.8g}\n", hull.area, hull.volume);
-  text += fmt::format("offsets   outer {:.2g}, inner {:.2g} [input]\n", offsets.outer, offsets.inner);
-  return text;
 }
 
 void write_size(OutputFile& file, const QhullPrint& print) {

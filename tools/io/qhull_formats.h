@@ -32,7 +32,7 @@ struct QhullPrint {
 
   // What Qhull's own command line may ask for besides (tools/qhull/qhull_run.cpp).
   std::vector<AttachedPoint> attached;  ///< points of the facets to print that are no vertices (Qc, Qi)
-  std::string invocation;               ///< "rbox ... | qhull ...": what FQ prints, and FD before its planes
+  std::string invocation;               ///< "rbox ... | qhull ...": FQ, FD before its planes, the summary
   bool writes_cdd = false;              ///< FD: n, Fo, Fi and p as cdd reads them
 };
 
@@ -52,14 +52,30 @@ std::vector<std::string> split_qhull_formats(std::string_view list);
 /// Throws     Error kUsage for an unknown name, kFileWrite.
 void write_qhull_format(OutputFile& file, std::string_view format, const QhullPrint& print);
 
-/// Writes the formats one after the other to `file`, and the summary to standard error if s is among them.
+/// Writes the formats one after the other to `file`; the summary stands where s or FA does first.
 void write_qhull_formats(OutputFile& file, std::span<const std::string> formats, const QhullPrint& print);
 
-/// The summary: one fact a line; `with_area` adds area and volume.
-std::string qhull_summary(const QhullPrint& print, bool with_area);
+/// What the summary says beside counts and distances.
+struct QhullSummaryParts {
+  bool with_area = false;        ///< area and volume
+  bool counts_attached = false;  ///< the points kept by Qc and Qi
+  double seconds = 0.0;          ///< of the hull
+  std::string run = {};          ///< lines about the run
+};
+/// The summary under Qhull's names, which scripts look for. The distances are certified.
+std::string qhull_summary(const QhullPrint& print, const QhullSummaryParts& parts);
+
+/// The widest offsets of all facets in input units.
+struct InputOffsets {
+  double outer = 0.0;
+  double inner = 0.0;
+};
+InputOffsets input_offsets(const Hull& hull);
 
 /// Mean of the facet's vertices, moved along the normal into its plane.
 std::vector<double> centrum(const QhullPrint& print, FacetId facet);
+std::vector<double> centrum(const PointView& points, std::span<const PointId> vertices,
+                            std::span<const double> normal, double offset);
 /// Numbers as "%6.16g ", and a newline.
 void print_row(OutputFile& file, std::span<const double> numbers);
 

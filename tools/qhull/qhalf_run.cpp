@@ -34,20 +34,24 @@ void check_cdd(const FileBytes& bytes, const std::string& path) {
                           display_name(path)));
 }
 
-void write_statistics(OutputFile& file, const HalfspaceIntersection& region) {
+std::size_t simple_vertices(const HalfspaceIntersection& region) {
   std::size_t simple = 0;
   for (std::size_t vertex = 0; vertex < region.vertex_count(); ++vertex) {
     if (region.halfspaces_of.row(vertex).size() <= region.rank) ++simple;
   }
+  return simple;
+}
+
+void write_statistics(OutputFile& file, const HalfspaceIntersection& region) {
   const std::size_t halfspaces = region.non_redundant.size(), vertices = region.vertex_count();
   file.print("10 {} {} {} {} {} {} 0 {} 0 0\n", region.dimension, region.halfspace_count, halfspaces,
-             vertices, halfspaces, vertices, vertices - simple);
+             vertices, halfspaces, vertices, vertices - simple_vertices(region));
   file.print("2 {:6.16g} {:6.16g}\n", region.max_residual, -region.max_residual);
 }
 
 /// What the summary says of either kind of intersection.
 struct RegionCounts {
-  std::size_t dimension, halfspaces, non_redundant, points, open_points;
+  std::size_t dimension, halfspaces, non_redundant, points, non_simplicial, open_points;
   double max_residual;
 };
 
@@ -57,6 +61,8 @@ std::string summary_of(const RegionCounts& counts, const std::string& invocation
   text += fmt::format("  Number of halfspaces: {}\n", counts.halfspaces);
   text += fmt::format("  Number of non-redundant halfspaces: {}\n", counts.non_redundant);
   text += fmt::format("  Number of intersection points: {}\n", counts.points);
+  if (counts.non_simplicial > 0)
+    text += fmt::format("  Number of non-simplicial intersection points: {}\n", counts.non_simplicial);
   if (counts.open_points > 0) text += fmt::format("  Number of these at infinity: {}\n", counts.open_points);
   text += fmt::format("\nStatistics for: {}\n\n", invocation);
   text += fmt::format("  CPU seconds to compute hull (after input): {:.4g}\n", seconds);
@@ -82,9 +88,13 @@ void print_all(const QhullCommand& command, const std::string& summary, const Wr
 
 void print_region(const HalfspaceIntersection& region, const QhullCommand& command,
                   const std::string& invocation, double seconds) {
-  const RegionCounts counts{
-      region.dimension,   region.halfspace_count, region.non_redundant.size(), region.vertex_count(), 0,
-      region.max_residual};
+  const RegionCounts counts{.dimension = region.dimension,
+                            .halfspaces = region.halfspace_count,
+                            .non_redundant = region.non_redundant.size(),
+                            .points = region.vertex_count(),
+                            .non_simplicial = region.vertex_count() - simple_vertices(region),
+                            .open_points = 0,
+                            .max_residual = region.max_residual};
   print_all(command, summary_of(counts, invocation, seconds), [&](OutputFile& file, const auto& format) {
     if (format == "Fs") {
       write_statistics(file, region);
@@ -102,8 +112,13 @@ void print_open(const OpenIntersection& open, const QhullCommand& command, const
   const Hull& dual = open.hull;
   QhullPrint print(dual, open.dual_view());
   print.invocation = invocation;
-  const RegionCounts counts{dual.dimension,     dual.point_count, dual.vertices.size(),
-                            dual.facet_count(), open.open_facets, open.max_residual};
+  const RegionCounts counts{.dimension = dual.dimension,
+                            .halfspaces = dual.point_count,
+                            .non_redundant = dual.vertices.size(),
+                            .points = dual.facet_count(),
+                            .non_simplicial = dual.facet_count() - dual.simplicial_facet_count(),
+                            .open_points = open.open_facets,
+                            .max_residual = open.max_residual};
   print_all(command, summary_of(counts, invocation, seconds), [&](OutputFile& file, const auto& format) {
     if (format != "Fp") return write_qhull_format(file, format, print);
     file.print("{}\n{}\n", dual.dimension, dual.facet_count());

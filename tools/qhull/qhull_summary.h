@@ -19,7 +19,7 @@ struct QhullRunFacts {
   std::uint64_t problem_runs = 0;  ///< of command.reruns
 };
 
-/// The summary under Qhull's names, which scripts look for. The distances are certified.
+/// The summary with what the options ask for (qhull_summary).
 std::string summary_text(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts);
 
 /// Numbers about growth, certificate and merging, one fact a line.
