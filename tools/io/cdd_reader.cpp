@@ -216,6 +216,13 @@ bool looks_like_cdd(const TextSource& source) {
   return false;
 }
 
+void require_cdd(const TextSource& source) {
+  if (looks_like_cdd(source)) return;
+  throw Error(ErrorCode::kBadHeader,
+              fmt::format("{}: found no line \"begin\", expected a cdd file as Fd says; leave Fd out",
+                          source.name()));
+}
+
 CddMatrix read_cdd(const TextSource& source, bool may_be_empty) {
   source.require_content();
   CddMatrix matrix;

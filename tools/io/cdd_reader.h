@@ -20,6 +20,9 @@ struct CddMatrix {
 /// Is there a line `begin` before the first line of numbers?
 bool looks_like_cdd(const TextSource& source);
 
+/// Throws kBadHeader where there is none, though Qhull's option Fd says that the file is cdd's.
+void require_cdd(const TextSource& source);
+
 /// Reads the matrix; the entries are integers, reals or quotients p/q (numerator and denominator are
 /// rounded to double, then divided). The count may be ***** as lrs writes it: the rows up to `end`.
 ///

@@ -145,6 +145,14 @@ PointFile read_points(const std::string& path, const ColumnChoice& columns, std:
   }
 }
 
+PointFile parse_cdd_points(const FileBytes& bytes, const std::string& path) {
+  const std::string name = display_name(path);
+  const TextSource source = text_source_of(bytes, name);
+  source.require_content();
+  require_cdd(source);
+  return {name, read_cdd_points(source, "ext")};
+}
+
 PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns,
                        std::size_t kept_bytes) {
   const std::string name = display_name(path);

@@ -59,6 +59,10 @@ PointFile read_points(const std::string& path, const ColumnChoice& columns = {},
 PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns = {},
                        std::size_t kept_bytes = kKeptFileBytes);
 
+/// Points of a cdd file that says V-representation or nothing, whatever its name (Qhull's option Fd).
+/// Throws as read_points; kBadHeader where there is no line "begin".
+PointFile parse_cdd_points(const FileBytes& bytes, const std::string& path);
+
 /// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
 /// `may_be_empty`: a count of 0, or a table of names alone, is no error.
 NumberTable read_number_text(const TextSource& source, const std::string& extension,

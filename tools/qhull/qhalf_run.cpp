@@ -26,14 +26,6 @@
 namespace ndhull {
 namespace {
 
-/// Fd says that the input is cdd's; files that are say so themselves.
-void check_cdd(const FileBytes& bytes, const std::string& path) {
-  if (looks_like_cdd(text_source_of(bytes, display_name(path)))) return;
-  throw Error(ErrorCode::kBadHeader,
-              fmt::format("{}: found no line \"begin\", expected a cdd file as Fd says; leave Fd out",
-                          display_name(path)));
-}
-
 std::size_t simple_vertices(const HalfspaceIntersection& region) {
   std::size_t simple = 0;
   for (std::size_t vertex = 0; vertex < region.vertex_count(); ++vertex) {
@@ -176,7 +168,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   Interrupt interrupt;
   FileBytes bytes = FileBytes::read(command.input_path);
   const std::string invocation = invocation_of(bytes.view(), command);
-  if (command.is_cdd) check_cdd(bytes, command.input_path);
+  if (command.is_cdd) require_cdd(text_source_of(bytes, display_name(command.input_path)));
   const HalfspaceFile file = parse_halfspaces(std::move(bytes), command.input_path);
   file.require_possible();
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});

@@ -41,7 +41,11 @@ void add_qhull_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = add_command(
       app, "qhull", "The convex hull of standard input, with the options and formats of Qhull.", arguments);
   command->footer(
-      "Input    TI FILE; QbB Qbk:n QBk:n Qbb scale it, and what is printed is about the scaled points\n"
+      "Input    TI FILE, Fd (cdd's, as rbox h writes it); QbB Qbk:n QBk:n Qbb scale it, and what is printed "
+      "is "
+      "about\n"
+      "         the scaled points. Of points that span fewer dimensions the hull is the one in their "
+      "subspace\n"
       "Width    Wn (points less than n outside are left out; Vn stands for W of 2n), Cn C-n An A-n (facets "
       "are\n"
       "         merged when the hull is complete, widths certified), Qt Q0 (simplices), QJn QR-n (joggle, "

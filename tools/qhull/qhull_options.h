@@ -51,7 +51,7 @@ struct QhullCommand {
   // Input.
   std::string input_path = "-";        ///< TI
   std::vector<double> interior_point;  ///< Hn,n,..
-  bool is_cdd = false;                 ///< Fd: the input must be a cdd file
+  bool is_cdd = false;                 ///< Fd: the input must be a cdd file, of points where it is silent
   bool unit_cube = false;              ///< QbB
   bool scale_last = false;             ///< Qbb
   std::vector<ColumnBound> column_bounds;

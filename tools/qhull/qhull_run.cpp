@@ -85,6 +85,14 @@ void warn_of_open_planes(const QhullSelection& selection, const Hull& hull) {
              selection.facets.size(), hull.facet_count(), fmt::join(selection.open_direction, ", "));
 }
 
+/// Where Qhull stops with QH6154.
+void warn_of_flat_points(const Hull& hull) {
+  fmt::print(stderr,
+             "ndhull: warning: the points span {0} of {1} dimensions: the hull is the one in that subspace, "
+             "its volume {0}-dimensional and its areas {2}-dimensional\n",
+             hull.rank, hull.dimension, hull.rank == 0 ? 0 : hull.rank - 1);
+}
+
 void print_all(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts) {
   // Where nothing else is asked for, the summary is the result.
   const bool is_result = command.formats.empty() && !command.has_summary;
@@ -130,7 +138,8 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   Interrupt interrupt;
   FileBytes bytes = FileBytes::read(command.input_path);
   const std::string invocation = invocation_of(bytes.view(), command);
-  const PointFile file = parse_points(std::move(bytes), command.input_path);
+  const PointFile file = command.is_cdd ? parse_cdd_points(bytes, command.input_path)
+                                        : parse_points(std::move(bytes), command.input_path);
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   PointSet scaled;
   PointView points = file.view();
@@ -144,6 +153,7 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   if (command.progress_facets > 0) options.progress = FacetCounter(command.progress_facets);
   interrupt.arm();
   const Result result = compute(points, command, options);
+  if (result.hull.rank < result.hull.dimension && !command.hides_warnings) warn_of_flat_points(result.hull);
   if (result.hull.status == HullStatus::kMemoryLimit) {
     fmt::print(stderr,
                "ndhull: warning: the machine's memory ended growth; the facets are those of {} vertices, and "
