@@ -51,7 +51,7 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
       .add_option("--verify", arguments.verify,
                   "check the hull independently before it is written; `--verify exact`: all of it, exactly")
       ->type_name("[exact]")
-      ->check(CLI::IsMember({"floating", "exact"}).description(""));
+      ->check(one_of({"floating", "exact"}));
   command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
   command.add_flag("--quiet", request.quiet, "no progress, no summary");
 }

@@ -31,7 +31,7 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
           "--method", arguments.method,
           "hull (build it), rays (sample and climb), or auto (default): the hull when it can be built")
       ->type_name("METHOD")
-      ->check(CLI::IsMember({"auto", "hull", "rays"}).description(""));
+      ->check(one_of({"auto", "hull", "rays"}));
   command
       .add_option("--rays", options.rays,
                   "shoot exactly so many rays; default: 2048 to 16384, until the largest are stable")

@@ -9,6 +9,9 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "approx/report.h"
 #include "core/error.h"
@@ -19,6 +22,7 @@
 #include "tools/hull_command.h"
 #include "tools/intersect_command.h"
 #include "tools/io/output_file.h"
+#include "tools/io/text_source.h"
 #include "tools/largest_command.h"
 #include "tools/points/point_set_commands.h"
 #include "tools/qhull/qhull_command.h"
@@ -37,7 +41,7 @@ int fail(int exit_code, std::string_view code, std::string message) {
 
 /// CLI11 says of an unknown command only that there is none.
 void check_command(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (!arguments.empty() && arguments.front().starts_with("-")) return;
+  if (!arguments.empty() && arguments.front().size() > 1 && arguments.front().starts_with("-")) return;
   std::string names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
     if (!arguments.empty() && command->get_name() == arguments.front()) return;
@@ -53,11 +57,43 @@ std::string help_of(const CLI::App& app) {
   return chosen.empty() ? "ndhull --help" : "ndhull " + chosen.front()->get_name() + " --help";
 }
 
+/// The words of a message of CLI11 before and behind `part`; empty ones where it is not in there.
+std::pair<std::string, std::string> parted_at(const std::string& message, std::string_view part) {
+  const std::size_t at = message.find(part);
+  if (at == std::string::npos) return {};
+  return {message.substr(0, at), message.substr(at + part.size())};
+}
+
+/// CLI11 says what is missing, or that there is too much, in words of its own: here what was found and what
+/// was expected. Checks of values (command_options.h) have said that themselves.
 std::string describe(const CLI::ParseError& error, const CLI::App& app) {
-  const auto* const extra = dynamic_cast<const CLI::ExtrasError*>(&error);
   const std::vector<std::string> left = app.remaining(true);
-  if (extra == nullptr || left.empty()) return error.what();
-  return fmt::format("found \"{}\", expected an option or argument of this command", left.front());
+  const auto unknown = std::find_if(left.begin(), left.end(), [](const std::string& word) {
+    return word.size() > 1 && word.starts_with("-") && word != "--";
+  });
+  const bool is_missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (!left.empty() &&
+      (is_missing ? unknown != left.end() : dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)) {
+    return fmt::format("found \"{}\", expected {}", printable(is_missing ? *unknown : left.front()),
+                       app.get_subcommands().empty() ? "a command" : "an option or argument of this command");
+  }
+  const std::string message = error.what();
+  if (const auto [name, rest] = parted_at(message, " is required"); !name.empty()) {
+    if (app.get_subcommands().empty()) return "found no command, expected one";
+    return fmt::format("found no {0}, expected {0} behind the command", name);
+  }
+  if (const auto [name, value] = parted_at(message, ": 1 required "); !name.empty())
+    return fmt::format("{}: found nothing behind it, expected {}", name, parted_at(value, " missing").first);
+  if (const auto [name, count] = parted_at(message, ": At Most 1 required but received "); !name.empty())
+    return fmt::format("{}: found {} times, expected once; leave out all but one", name, count);
+  if (const auto [name, other] = parted_at(message, " requires "); !name.empty())
+    return fmt::format("{0}: found without {1}, expected with it; add {1} or leave {0} out", name, other);
+  if (const auto [name, other] = parted_at(message, " excludes "); !name.empty())
+    return fmt::format("{0}: found with {1}, expected one of them; leave out the other", name, other);
+  if (const auto [name, value] = parted_at(parted_at(message, "Could not convert: ").second, " = ");
+      !name.empty())
+    return fmt::format("{}: found \"{}\", expected no value behind it; leave it out", name, printable(value));
+  return message;
 }
 
 /// Runs the command that the words name. What --help and --version print is a result like any other.

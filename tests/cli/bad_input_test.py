@@ -117,6 +117,31 @@ def test_usage_gives_one_line():
         one_error_line(done, done.stderr.split(": ")[1])
 
 
+def test_usage_says_what_was_found_and_expected():
+    hull, folder = ["hull", DIAMONDS], fresh_folder("usage_words")
+    commands = ["intersect", "contains", "largest", "extreme", "generate", "rbox", "verify", "view"]
+    usages = [([command], "found no ") for command in commands] + [([command, "--bogus"], '"--bogus"') for command in commands]
+    usages += [
+        ([], "no command"), (["--bogus"], '"--bogus"'), (["-"], '"-"'), (["bogus"], '"bogus"'),
+        (["contains", "a", "--bogus"], '"--bogus"'), (["view", "a"], "--output"), (["hull", "a", "b"], '"b"'),
+        ([*hull, "--report"], "nothing"), ([*hull, "--width"], "nothing"), (["extreme", "a", "--keep"], "nothing"),
+        ([*hull, "--threads", "2", "--threads", "3"], "2 times"), ([*hull, "--max-cosine", "3"], "a number from -1 to 1"),
+        ([*hull, "--max-cosine", "x"], "a number from -1 to 1"), ([*hull, "--facets", "9", "--objective", "x"], "width or volume"),
+        ([*hull, "--effort", "x"], "quick or thorough"), ([*hull, "--largest", "3", "--select", "x"], "area or volume or distance"),
+        ([*hull, "--verify=x"], "floating or exact"), ([*hull, "--planes", "p.npy", "--plane-kind", "x"], "outer or mean or inner"),
+        ([*hull, "--facet-list"], "without --report"), ([*hull, "--objective", "volume"], "without --facets"),
+        (["largest", "a", "--plane-kind", "inner"], "without --planes"), (["largest", "a", "--method", "x"], "auto or hull or rays"),
+        (["largest", "a", "--verify=x"], '"x"'), ([*hull, "--progress=x"], '"x"'), (["view", "a", "-o", "b.svg", "--section", "1", "--shadow"], "found with"),
+    ]  # fmt: skip
+    for usage, words in usages:
+        done = run(*usage, exit_code=1)
+        one_error_line(done, "usage")
+        assert words in done.stderr and "found" in done.stderr and "expected" in done.stderr, (usage, done.stderr)
+        assert "--help" in done.stderr, (usage, done.stderr)
+        assert not any(text in done.stderr for text in ("is required", "not in {", "Could not", "required", "requires")), done.stderr
+    assert not list(folder.iterdir())
+
+
 def test_places_that_cannot_be_written_are_said_before_the_work():
     folder = fresh_folder("no_place")
     for path in (folder, folder / "no folder" / "planes.npy"):

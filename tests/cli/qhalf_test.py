@@ -114,5 +114,18 @@ def test_the_summary_goes_where_qhulls_goes():
                 assert ("Number of halfspaces" in one) == ("Number of halfspaces" in other), (options, mine, qhulls)
 
 
+def test_refusals_name_options_of_qhalf():
+    stdin = b"3 4\n1 0 -1\n-1 0 -1\n0 1 -1\n0 -1 -1\n"
+    for options in ("FF", "f", "G", "m", "FM", "d", "v", "Qu", "Qz", "QG0", "QV0", "QR3", "R1e-3", "TC2", "TA3", "T4", "TP1",
+                    "zz", "W", "FS", "n"):  # fmt: skip
+        done = run("qhalf", options, stdin=stdin, exit_code=1)
+        one_error_line(done, "usage")
+        assert "qhalf options: found" in done.stderr and "expected" in done.stderr, done.stderr
+        remedy = done.stderr.split("; ", 1)[1]
+        assert "qhull" not in remedy and "ndhull hull" not in remedy, remedy
+        for name in ("n", "Fo", "Fa", "FS", "TFn", "Ts"):
+            assert name not in remedy.replace(",", " ").split(), remedy
+
+
 if __name__ == "__main__":
     run_tests(globals())

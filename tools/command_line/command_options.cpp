@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "tools/io/text_source.h"
 
 namespace ndhull {
 namespace {
 
-CLI::Validator number_that(bool (*fits)(double), std::string_view wanted) {
+template <class Fits>
+CLI::Validator number_that(const Fits& fits, const std::string& wanted) {
   const auto check = [fits, wanted](const std::string& text) -> std::string {
     double value = 0.0;
     const char* const end = text.data() + text.size();
@@ -41,6 +44,19 @@ CLI::Validator positive_number() {
 
 CLI::Validator number_from_0() {
   return number_that([](double value) { return value >= 0.0; }, "a number, 0 or above");
+}
+
+CLI::Validator number_from_to(double least, double most) {
+  return number_that([least, most](double value) { return least <= value && value <= most; },
+                     fmt::format("a number from {} to {}", least, most));
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    return fmt::format("found \"{}\", expected {}", printable(text), fmt::join(words, " or "));
+  };
+  return {check, ""};
 }
 
 CLI::Validator path_name() {
@@ -77,7 +93,7 @@ void add_plane_options(CLI::App& command, std::string& path, std::string& kind, 
       .add_option("--plane-kind", kind,
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"outer", "mean", "inner"}).description(""))
+      ->check(one_of({"outer", "mean", "inner"}))
       ->needs(planes);
   command
       .add_flag("--equations", equations,

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tools/io/column_choice.h"
 
@@ -15,6 +16,10 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most = UINT64_MAX
 CLI::Validator positive_number();
 /// A finite number, 0 or above.
 CLI::Validator number_from_0();
+/// A finite number from least to most.
+CLI::Validator number_from_to(double least, double most);
+/// One of these words.
+CLI::Validator one_of(std::vector<std::string> words);
 /// A path, which is not the empty word.
 CLI::Validator path_name();
 /// Not empty, as what a shell makes of a variable that is not set.

@@ -84,7 +84,7 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
           "planes "
           "(volume: planes are chosen of the exact hull's)")
       ->type_name("WHAT")
-      ->check(CLI::IsMember({"width", "volume"}).description(""))
+      ->check(one_of({"width", "volume"}))
       ->needs("--facets");
   command
       .add_option_function<std::string>(
@@ -95,7 +95,7 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
           "how long --width and --facets look: about as long as the exact hull takes (quick, default), or "
           "up to 35 times as long for up to half as many, or narrower, facets (thorough)")
       ->type_name("HOW")
-      ->check(CLI::IsMember({"quick", "thorough"}).description(""));
+      ->check(one_of({"quick", "thorough"}));
   add_length("--outside-width", outside_width_,
              "leave out points that are less than this outside (Qhull's Wn)");
   add_length("--centrum-radius", centrum_radius_,
@@ -104,7 +104,7 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
       .add_option("--max-cosine", options_.accuracy.max_cosine,
                   "merge facets while the cosine between their normals is above this (An)")
       ->type_name("A")
-      ->check(CLI::Range(-1.0, 1.0).description(""));
+      ->check(number_from_to(-1.0, 1.0));
   add_length(
       "--width-cap", width_cap_,
       "merging makes no facet wider than this; default the larger of W + 0.9 C and 6.5 C, with --max-cosine "

@@ -27,7 +27,9 @@ bool OptionWords::next_word() {
 std::string OptionWords::word() const { return printable(word_); }
 
 void OptionWords::fail(std::string_view expected) const {
-  throw Error(ErrorCode::kUsage, fmt::format("qhull options: found \"{}\", expected {}", word(), expected));
+  throw Error(ErrorCode::kUsage,
+              fmt::format("{0} options: found \"{1}\", expected {2}; see ndhull {0} --help", program_, word(),
+                          expected));
 }
 
 bool OptionWords::at_digit() const { return !rest_.empty() && is_digit(rest_.front()); }

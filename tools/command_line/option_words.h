@@ -11,7 +11,9 @@ namespace ndhull {
 /// word that was being read and what `expected` says.
 class OptionWords {
  public:
-  explicit OptionWords(std::string_view text) : text_(text), rest_(text) {}
+  /// `program` is what messages call the options of: qhull or qhalf.
+  OptionWords(std::string_view text, std::string_view program)
+      : text_(text), rest_(text), program_(program) {}
 
   /// Moves to the next word; false at the end. A leading '-' is skipped, and so is a word that begins with
   /// '_': Qhull lists what it has set for itself so.
@@ -42,7 +44,7 @@ class OptionWords {
     return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
   }
 
-  std::string_view text_, rest_, word_;
+  std::string_view text_, rest_, word_, program_;
 };
 
 }  // namespace ndhull

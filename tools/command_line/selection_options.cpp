@@ -24,7 +24,7 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
           "what --largest means: area (default); volume: the N facets whose outer planes together "
           "enclose little; distance: those whose outer planes meet nowhere far from the hull")
       ->type_name("MEASURE")
-      ->check(CLI::IsMember({"area", "volume", "distance"}).description(""))
+      ->check(one_of({"area", "volume", "distance"}))
       ->needs(largest);
   command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
       ->type_name("A")

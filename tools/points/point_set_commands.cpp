@@ -38,7 +38,7 @@ void add_family_parameters(CLI::App& command, GenerateArguments& arguments) {
   GenerateOptions& options = arguments.options;
   command.add_option("--curve", arguments.curve, "cyclic: moment, or trigonometric (even dimensions)")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"auto", "moment", "trigonometric"}).description(""));
+      ->check(one_of({"auto", "moment", "trigonometric"}));
   command.add_option("--side", options.side, "lattice: points along each axis; default 3")
       ->type_name("N")
       ->check(whole_number(1));

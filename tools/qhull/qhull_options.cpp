@@ -20,6 +20,7 @@ constexpr std::size_t kLastDigitOption = 17;
 
 struct Refusal {
   std::string_view option, nearest;
+  std::string_view of_qhalf = {};  ///< nearest in qhalf, where that is another
 };
 
 constexpr std::string_view kLift =
@@ -30,42 +31,49 @@ constexpr std::string_view kFacetDump = "use Fv Fn n Fo Fa, or ndhull hull --rep
 constexpr std::string_view kDual =
     "that is a format of the dual points; use Fp Fv Fn Fx FN i, or ndhull "
     "intersect --report for volume and area";
+constexpr std::string_view kOfPoints =
+    "that is about points; halfspaces are intersected as they are: leave it out";
+constexpr std::string_view kOfPolytope =
+    "use Fp Fv Fn Fx FN i, or ndhull intersect --report FILE --vertex-list";
+constexpr std::string_view kOfHalfspace = "use FN, which lists the vertices of each halfspace";
 constexpr std::string_view kTracing = "use TFn for progress, Ts for statistics, Tv for a check";
 constexpr std::string_view kStopping = "use ndhull hull --max-facets N, or Wn for a coarser hull";
 
 constexpr std::array kRefusals{
-    Refusal{"d", kLift},
-    Refusal{"v", kLift},
-    Refusal{"u", kLift},
-    Refusal{"Qu", kLift},
-    Refusal{"Qz", kLift},
+    Refusal{"d", kLift, kOfPoints},
+    Refusal{"v", kLift, kOfPoints},
+    Refusal{"u", kLift, kOfPoints},
+    Refusal{"Qu", kLift, kOfPoints},
+    Refusal{"Qz", kLift, kOfPoints},
     Refusal{"H", "use ndhull qhalf"},
     Refusal{"Fp", "use it with ndhull qhalf"},
-    Refusal{"G", kPictures},
-    Refusal{"m", kPictures},
-    Refusal{"FM", kPictures},
-    Refusal{"M", kPictures},
-    Refusal{"f", kFacetDump},
-    Refusal{"FF", kFacetDump},
+    Refusal{"G", kPictures, kOfPolytope},
+    Refusal{"m", kPictures, kOfPolytope},
+    Refusal{"FM", kPictures, kOfPolytope},
+    Refusal{"M", kPictures, kOfPolytope},
+    Refusal{"f", kFacetDump, kOfPolytope},
+    Refusal{"FF", kFacetDump, kOfPolytope},
     Refusal{"format of qhalf", kDual},
     Refusal{"FD of qhalf", "use ndhull intersect --vertices FILE.ext for points as cdd reads them"},
-    Refusal{"R", "nothing is perturbed at random here; QJn joggles the input"},
+    Refusal{"R", "nothing is perturbed at random here; QJn joggles the input", kOfPoints},
     Refusal{"Qa", "correct the count in the input's header"},
-    Refusal{"QR", "QR-n seeds the joggle; rotate the points before they are read"},
-    Refusal{"QG", "remove the point from the input, and look at its distances with ndhull contains"},
-    Refusal{"QV", "use Fv, or FN, which lists the facets of each vertex"},
-    Refusal{"TA", kStopping},
-    Refusal{"TC", kStopping},
-    Refusal{"TV", kStopping},
-    Refusal{"TM", kTracing},
-    Refusal{"TP", kTracing},
-    Refusal{"TW", kTracing},
-    Refusal{"Tn", kTracing},
+    Refusal{"QR", "QR-n seeds the joggle; rotate the points before they are read", kOfPoints},
+    Refusal{"QG", "remove the point from the input, and look at its distances with ndhull contains",
+            kOfHalfspace},
+    Refusal{"QV", "use Fv, or FN, which lists the facets of each vertex", kOfHalfspace},
+    Refusal{"TA", kStopping, "use ndhull intersect --max-facets N"},
+    Refusal{"TC", kStopping, "use ndhull intersect --max-facets N"},
+    Refusal{"TV", kStopping, "use ndhull intersect --max-facets N"},
+    Refusal{"TM", kTracing, "use Tv for a check"},
+    Refusal{"TP", kTracing, "use Tv for a check"},
+    Refusal{"TW", kTracing, "use Tv for a check"},
+    Refusal{"Tn", kTracing, "use Tv for a check"},
 };
 
 class Parser {
  public:
-  Parser(std::string_view options, QhullProgram program) : words_(options) {
+  Parser(std::string_view options, QhullProgram program)
+      : words_(options, program == QhullProgram::kQhalf ? "qhalf" : "qhull") {
     command_.program = program;
     command_.text = words_.joined();
   }
@@ -82,11 +90,12 @@ class Parser {
   [[noreturn]] void refuse(std::string_view option) const {
     const auto* const found = std::find_if(kRefusals.begin(), kRefusals.end(),
                                            [option](const Refusal& row) { return row.option == option; });
-    if (found == kRefusals.end()) {
-      words_.fail("one of Qhull's options; see ndhull qhull --help for those that are honoured");
-    }
-    throw Error(ErrorCode::kUsage, fmt::format("qhull options: found \"{}\", which is not supported; {}",
-                                               words_.word(), found->nearest));
+    if (found == kRefusals.end()) words_.fail("one of Qhull's options that is honoured");
+    const std::string_view nearest =
+        is_qhalf() && !found->of_qhalf.empty() ? found->of_qhalf : found->nearest;
+    throw Error(ErrorCode::kUsage,
+                fmt::format("{} options: found \"{}\", which is not supported, expected what is; {}",
+                            is_qhalf() ? "qhalf" : "qhull", words_.word(), nearest));
   }
 
   bool is_qhalf() const { return command_.program == QhullProgram::kQhalf; }
