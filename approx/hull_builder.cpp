@@ -161,7 +161,8 @@ class HullBuilder {
     const bool may_merge = !options_.triangulate || options_.accuracy.facets > 0;
     if (!hull_.is_approximate && !is_shifted.empty() && may_merge) {
       clusters_ = merge_coplanar(complex(), growth_->coordinates(), is_shifted, determinants,
-                                 kShiftsInPlane * growth_->work().options.shift);
+                                 kShiftsInPlane * growth_->work().options.shift, growth_->end_of_merging());
+      growth_->note_end(clusters_.is_cut_short);
     }
     if (options_.accuracy.is_for_volume() && frame_.rank >= 2) choose_for_volume(determinants);
     hull_.layout_ =
@@ -188,8 +189,7 @@ class HullBuilder {
         cover_for_volume(complex(), growth_->coordinates(), determinants, clusters_, options_.accuracy.facets,
                          gradient_factor(frame_, hull_.length_unit_), end);
     if (!few) return;
-    if (few->is_cut_short && hull_.status == HullStatus::kComplete)
-      hull_.status = end.is_late() ? HullStatus::kTimeLimit : HullStatus::kInterrupted;
+    growth_->note_end(few->is_cut_short);
     is_bounded_ = few->is_bounded;
     clusters_ = std::move(few->clusters);
     hull_.is_approximate = true;

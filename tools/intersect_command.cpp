@@ -67,7 +67,9 @@ void add_options(CLI::App& command, IntersectArguments& arguments) {
   command.add_option("--max-facets", options.limits.max_facets, "limit: vertices, coincident ones apart")
       ->type_name("N")
       ->check(whole_number(1));
-  command.add_option("--max-seconds", options.limits.max_seconds, "limit: seconds of finding vertices")
+  command
+      .add_option("--max-seconds", options.limits.max_seconds,
+                  "limit: seconds of finding vertices, volume and area")
       ->type_name("S")
       ->check(positive_number());
   command

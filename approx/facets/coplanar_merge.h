@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "approx/facets/facet_layout.h"
+#include "approx/work_end.h"
 #include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
 
@@ -23,11 +24,12 @@ namespace ndhull {
 ///           squares). Where most simplices have a shifted vertex, flats are found a plane at a time first
 ///           (flat_facets.h). Facets whose vertices all lie in a neighbour's plane are slivers and join it.
 /// Shapes    is_shifted: one a point; determinants: one a simplex.
+/// Limits    at the end of work slivers stay facets of their own, and the result is cut short.
 /// Units     tolerance is a gauge: relative to the distance of the plane from the interior point.
 /// Cost      O(s rank^2) for s simplices, plus the fits.
 FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* points,
                              std::span<const std::uint8_t> is_shifted, std::span<const double> determinants,
-                             double tolerance);
+                             double tolerance, const WorkEnd& end = {});
 
 /// The points that are vertices of the merged hull: those whose facets' normals span all dimensions. Points
 /// in the middle of a facet, ridge or edge are in the complex but are no vertices. `complex` is as

@@ -25,6 +25,7 @@ struct FacetClusters {
   /// Per cluster: the row of `planes` that is its plane; FacetId::kNone: that of the simplex seeds[cluster]
   /// is. Empty: each has the row with its number.
   std::vector<std::uint32_t> own_plane, seeds;
+  bool is_cut_short = false;  ///< at the end of work, more would have been merged
 
   const double* plane_of(const SimplicialComplex& complex, std::uint32_t cluster) const {
     const std::uint32_t own = own_plane.empty() ? cluster : own_plane[cluster];

@@ -14,6 +14,7 @@
 #include "approx/growth/begun_hull.h"
 #include "approx/growth/work_limits.h"
 #include "approx/hull.h"
+#include "approx/work_end.h"
 #include "core/complex/membership.h"
 #include "core/frame.h"
 #include "core/growth/growth.h"
@@ -93,6 +94,10 @@ class CertifiedGrowth {
   double seconds_left() const {
     return options_.limits.max_seconds > 0.0 ? limits_.seconds_left() : HUGE_VAL;
   }
+  /// For coplanar merging, by what the facet table needs of the time; after a request to stop in a moment.
+  WorkEnd end_of_merging() const;
+  /// Of a step after growth that was cut short.
+  void note_end(bool is_cut_short);
   bool is_limited() const { return hull_.status != HullStatus::kComplete; }
   /// Are the points about as rough as the shift? Most insertions were undone, and growth has ended, or points
   /// are left outside by far more than it: a larger shift will do. Never of one that is not the default or

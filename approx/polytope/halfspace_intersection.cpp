@@ -21,6 +21,7 @@
 #include "approx/polytope/halfspace_set.h"
 #include "approx/polytope/plane_polytope.h"
 #include "approx/polytope/polytope_vertices.h"
+#include "approx/work_end.h"
 #include "core/error.h"
 #include "core/linear/dense_views.h"
 #include "core/machine/stopwatch.h"
@@ -31,9 +32,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-HullOptions dual_options(const IntersectionOptions& options) {
+/// For Limits::share_afterwards, what is done with each vertex: an allowance, not a measurement.
+constexpr double kPlaceShare = 3.0;
+
+HullOptions dual_options(const IntersectionOptions& options, const WorkEnd& end) {
   HullOptions dual;
   dual.limits = options.limits;
+  dual.limits.max_seconds = end.seconds_left();
+  dual.limits.share_afterwards = kPlaceShare;
   dual.seed = options.seed;
   dual.threads = options.threads;
   dual.progress = options.progress;
@@ -44,7 +50,7 @@ HullOptions dual_options(const IntersectionOptions& options) {
 class Intersector {
  public:
   Intersector(const PointView& rows, const IntersectionOptions& options)
-      : halfspaces_(rows), options_(options) {
+      : halfspaces_(rows), options_(options), end_(options.limits.max_seconds, options.stop) {
     result_.dimension = halfspaces_.dimension();
     result_.halfspace_count = halfspaces_.count();
     if (options.interior_point && options.interior_point->size() != result_.dimension) {
@@ -146,7 +152,7 @@ class Intersector {
       centre = region_.point;
       planes = planes_about(centre);
     }
-    PlanePolytope polytope = intersect_about_origin(planes, dual_options(options_));
+    PlanePolytope polytope = intersect_about_origin(planes, dual_options(options_, end_));
     result_.dual_hull_seconds = seconds_since(start);
     result_.status = polytope.status;
     if (!polytope.bounded) {
@@ -154,7 +160,10 @@ class Intersector {
       throw too_long_a_region();
     }
     start = Clock::now();
-    PolytopeVertices vertices = place_vertices(halfspaces_, region_, centre, planes, polytope);
+    // After a request to stop vertices are placed, and merged in a moment.
+    constexpr double kMoment = 0.3;
+    const WorkEnd end = options_.stop.stop_requested() ? WorkEnd(kMoment, {}) : end_;
+    PolytopeVertices vertices = place_vertices(halfspaces_, region_, centre, planes, polytope, end);
     result_.vertices = std::move(vertices.coordinates);
     result_.halfspaces_of = std::move(vertices.halfspaces);
     result_.neighbours_of = std::move(vertices.neighbours);
@@ -163,7 +172,10 @@ class Intersector {
     result_.vertex_seconds = seconds_since(start);
     if (!options_.measure || polytope.status != HullStatus::kComplete) return;
     start = Clock::now();
-    const PolytopeMeasure measure = measure_polytope(planes, polytope);
+    HullOptions within;
+    within.limits.max_seconds = end_.seconds_left();
+    within.stop = options_.stop;
+    const PolytopeMeasure measure = measure_polytope(planes, polytope, within);
     if (measure.status == HullStatus::kComplete) {
       result_.volume = measure.volume;
       result_.area = measure.area;
@@ -173,6 +185,7 @@ class Intersector {
 
   const HalfspaceSet halfspaces_;
   const IntersectionOptions& options_;
+  const WorkEnd end_;
   HalfspaceRegion region_;
   HalfspaceIntersection result_;
 };

@@ -24,16 +24,18 @@ constexpr double kSameVertexRoundings = 16.0;
 /// being refined.
 constexpr double kAcceptedRoundings = 4.0;
 constexpr int kRefinements = 3;
+constexpr std::size_t kBetweenClocks = 256;
 
 class VertexPlacer {
  public:
   VertexPlacer(const HalfspaceSet& halfspaces, const HalfspaceRegion& region, std::span<const double> centre,
-               const PlanesAboutOrigin& planes, const PlanePolytope& polytope)
+               const PlanesAboutOrigin& planes, const PlanePolytope& polytope, const WorkEnd& end)
       : halfspaces_(halfspaces),
         region_(region),
         centre_(centre),
         planes_(planes),
         polytope_(polytope),
+        end_(end),
         dimension_(halfspaces.dimension()),
         count_(polytope.vertex_count(planes.rank)) {}
 
@@ -44,6 +46,7 @@ class VertexPlacer {
     if (needs_merging()) {
       cluster_of_.resize(count_);
       std::iota(cluster_of_.begin(), cluster_of_.end(), 0U);
+      find_local_normals();
       merge_close_vertices();
       list_clusters();
     } else {
@@ -94,11 +97,18 @@ class VertexPlacer {
     return false;
   }
 
-  /// The unit normal of a halfspace in coordinates of the subspace, shorter where it leaves it.
-  VectorXd local_normal(std::uint32_t plane) const {
-    const std::uint32_t id = region_.planes[plane];
-    return region_.directions.transpose() * as_vector(halfspaces_.normal(id)) / halfspaces_.length(id);
+  /// Column by column the unit normals of the planes in coordinates of the subspace, shorter where they leave
+  /// it.
+  void find_local_normals() {
+    local_normals_.resize(static_cast<Index>(planes_.rank), static_cast<Index>(region_.planes.size()));
+    for (Index plane = 0; plane < local_normals_.cols(); ++plane) {
+      const std::uint32_t id = region_.planes[static_cast<std::size_t>(plane)];
+      local_normals_.col(plane) =
+          region_.directions.transpose() * as_vector(halfspaces_.normal(id)) / halfspaces_.length(id);
+    }
   }
+
+  auto local_normal(std::uint32_t plane) const { return local_normals_.col(static_cast<Index>(plane)); }
 
   MatrixXd normals_of_simplex(std::size_t row) const {
     const auto rank = static_cast<Index>(planes_.rank);
@@ -114,9 +124,11 @@ class VertexPlacer {
     std::size_t simplex = 0;
   };
 
+  /// None when work has ended before.
   std::vector<Determination> determinations() const {
     std::vector<Determination> widest(count_);
     for (std::size_t row = 0; row < polytope_.vertex_of.size(); ++row) {
+      if (row % kBetweenClocks == 0 && end_.is_here()) return {};
       const double volume = std::abs(SquareFactors(normals_of_simplex(row)).determinant());
       Determination& best = widest[polytope_.vertex_of[row]];
       if (volume > best.volume) best = {volume, row};
@@ -160,6 +172,7 @@ class VertexPlacer {
 
   void merge_close_vertices() {
     const std::vector<Determination> determination = determinations();
+    if (determination.empty()) return;
     std::vector<std::uint32_t> order(count_);
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&determination](std::uint32_t a, std::uint32_t b) {
@@ -169,6 +182,7 @@ class VertexPlacer {
     std::vector<std::uint32_t> to_visit;
     for (const std::uint32_t first : order) {
       if (taken[first]) continue;
+      if (end_.is_here()) return;  // the others stay apart
       taken[first] = true;
       const Seed seed(*this, first, determination[first].simplex);
       to_visit.assign(1, first);
@@ -260,7 +274,7 @@ class VertexPlacer {
     double* const x = result_.coordinates.data() + cluster * dimension_;
     double excess = 0.0;
     double largest = residual(cluster, x, excess);
-    for (int round = 0; round < kRefinements && excess > 1.0; ++round) {
+    for (int round = 0; round < kRefinements && excess > 1.0 && !end_.is_here(); ++round) {
       const auto ids = result_.halfspaces.row(cluster);
       MatrixXd normals(static_cast<Index>(ids.size()), region_.directions.cols());
       VectorXd distances(normals.rows());
@@ -287,8 +301,10 @@ class VertexPlacer {
   std::span<const double> centre_;
   const PlanesAboutOrigin& planes_;
   const PlanePolytope& polytope_;
+  const WorkEnd& end_;
   std::size_t dimension_, count_;
   std::vector<double> positions_;
+  MatrixXd local_normals_;
   std::vector<std::uint32_t> cluster_of_;  // of each vertex: the one that took it in, or itself
   PolytopeVertices result_;
 };
@@ -297,8 +313,8 @@ class VertexPlacer {
 
 PolytopeVertices place_vertices(const HalfspaceSet& halfspaces, const HalfspaceRegion& region,
                                 std::span<const double> centre, const PlanesAboutOrigin& planes,
-                                const PlanePolytope& polytope) {
-  return VertexPlacer(halfspaces, region, centre, planes, polytope).run();
+                                const PlanePolytope& polytope, const WorkEnd& end) {
+  return VertexPlacer(halfspaces, region, centre, planes, polytope, end).run();
 }
 
 }  // namespace ndhull

@@ -8,6 +8,7 @@
 #include "approx/polytope/halfspace_region.h"
 #include "approx/polytope/halfspace_set.h"
 #include "approx/polytope/plane_polytope.h"
+#include "approx/work_end.h"
 #include "core/id_rows.h"
 
 namespace ndhull {
@@ -27,9 +28,10 @@ struct PolytopeVertices {
 ///           and what it moves the vertex by, takes the neighbour in. Best determined vertices first.
 /// Refining  where a vertex is off one of its planes by more than their rounding, least squares on distances
 ///           summed in twice the precision.
+/// Limits    at the end of work vertices stay apart, and as they are.
 /// Cost      O(planes of the vertices x dimension) where nothing has to be refined.
 PolytopeVertices place_vertices(const HalfspaceSet& halfspaces, const HalfspaceRegion& region,
                                 std::span<const double> centre, const PlanesAboutOrigin& planes,
-                                const PlanePolytope& polytope);
+                                const PlanePolytope& polytope, const WorkEnd& end = {});
 
 }  // namespace ndhull

@@ -5,11 +5,13 @@ import itertools
 import json
 import math
 import shutil
+import signal
 import subprocess
+import time
 
 import numpy
 
-from program import fresh_folder, one_error_line, rbox, run, run_tests
+from program import PATIENCE, PROGRAM, fresh_folder, one_error_line, rbox, run, run_tests
 from program import report_of as report_of_hull
 
 FOLDER = fresh_folder("intersect")
@@ -119,6 +121,35 @@ def test_what_a_limit_leaves_out_is_said():
     assert report["hull_status"] == "facet_limit" and report["options"]["max_seconds"] is None
     done = run("intersect", folder / "rows.npy", "--vertices", folder / "v.npy")
     assert "status      bounded" in done.stdout and done.stderr == "" and len(numpy.load(folder / "v.npy")) == 128
+
+
+def rounded_cyclic_planes(folder):
+    """660 planes; rounded, 330 that met in a vertex meet in thousands, most of which merge again."""
+    t = numpy.arange(16.0)[:, None]
+    numpy.save(folder / "curve.npy", t ** numpy.arange(1, 9))
+    run("hull", folder / "curve.npy", "--planes", folder / "planes.npy", "--quiet")
+    return folder / "planes.npy"
+
+
+def test_a_limit_on_seconds_holds_where_many_vertices_merge():
+    planes = rounded_cyclic_planes(fresh_folder("cyclic_limit"))
+    limit = PATIENCE / 60
+    words = ["intersect", planes, "--threads", 1, "--max-seconds", limit, "--report", "-", "--quiet"]
+    report = json.loads(run(*words).stdout)
+    assert report["hull_status"] == "time_limit" and report["vertices"] > 16, report["hull_status"]
+    assert report["seconds"]["total"] < 1.8 * limit, report["seconds"]
+
+
+def test_ctrl_c_ends_where_many_vertices_merge():
+    planes = rounded_cyclic_planes(fresh_folder("cyclic_interrupt"))
+    words = [PROGRAM, "intersect", planes, "--threads", "1", "--report", "-", "--quiet"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE) as process:
+        time.sleep(1.0)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 130 and json.loads(output)["hull_status"] == "interrupted"
+    assert time.monotonic() - start < PATIENCE / 40
 
 
 def test_formats_agree_with_each_other_and_qhalf():

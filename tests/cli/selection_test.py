@@ -20,7 +20,7 @@ def test_a_summary_is_text_like_the_other_formats():
     rbox("100 s D3 t1", folder / "points.npy")
     for formats, areas in (("s", 0), ("FA", 1), ("n,s,FA", 1)):
         text = run("hull", folder / "points.npy", "--format", formats, "--quiet").stdout
-        assert text.count("vertices  100") == 1 and text.count("size      area") == areas, text
+        assert text.count("Number of vertices: 100") == 1 and text.count("Total facet area:") == areas, text
 
 
 def test_every_output_has_the_selected_facets_and_no_others():
