@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "approx/facets/exact_facets.h"
+
 namespace ndhull {
 namespace {
 
@@ -11,11 +13,6 @@ bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width) {
   constexpr double kSmall = 1e-6;
   return max_facet_width > lengths.width && lengths.width > 0.0 &&
          lengths.width <= kSmall * lengths.largest_extent;
-}
-
-/// Have so many points been shifted that facets share them by the dozen?
-bool shares_planes(const GrowthWork& work) {
-  return 4 * work.shifted_points.size() >= work.counters.insertions && !work.shifted_points.empty();
 }
 
 }  // namespace

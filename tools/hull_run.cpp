@@ -124,12 +124,7 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
     std::optional<std::span<const FacetId>> printed;
     if (selection != nullptr) printed = selection->facets;
     QhullPrint print(hull, points, printed);
-    if (hull.rank < hull.dimension && !request.quiet) {
-      fmt::print(stderr,
-                 "ndhull: warning: the points span {0} of {1} dimensions: the hull is the one in that "
-                 "subspace, its volume {0}-dimensional and its areas {2}-dimensional\n",
-                 hull.rank, hull.dimension, hull.rank == 0 ? 0 : hull.rank - 1);
-    }
+    if (hull.rank < hull.dimension && !request.quiet) warn_of_flat_volume(hull.rank, hull.dimension);
     print.invocation = fmt::format(
         "ndhull hull {}", request.shards_pattern.empty() ? request.points_path : request.shards_pattern);
     write_qhull_formats(file, request.formats, print);

@@ -29,6 +29,10 @@ void turn_outwards(std::span<double> determinants) {
 
 }  // namespace
 
+bool shares_planes(const GrowthWork& work) {
+  return 4 * work.shifted_points.size() >= work.counters.insertions;
+}
+
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work) {
   std::vector<std::uint8_t> is_shifted(work.shifted_points.empty() ? 0 : work.point_count);
   for (const std::uint32_t id : work.shifted_points) is_shifted[id] = 1;

@@ -14,6 +14,10 @@ namespace ndhull {
 /// Gauges up to so many shifts are no distance: coplanar merging takes them for rounding.
 inline constexpr double kShiftsInPlane = 4.0;
 
+/// Do so many points share planes that rounding has drawn many simplices' planes? A quarter of the vertices
+/// was moved inwards when they were added.
+bool shares_planes(const GrowthWork& work);
+
 /// One flag a point: was it moved inwards when it was added? Empty: none was.
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work);
 

@@ -102,21 +102,17 @@ void NormalMap::map(const double* planes, std::size_t count, double* out, double
     return call_with_dimension<1, kMaxRank>(
         dimension_, [&](auto d) { scale_rows<decltype(d)::value>(planes, count, out, lengths); });
   }
-  if (!columns_.empty()) {
-    map_normals(planes, count, columns_, rank_, out);
-    for (std::size_t row = 0; row < count; ++row) {
-      const double length = normalise<0>(out + row * dimension_, dimension_);
-      if (lengths != nullptr) lengths[row] = length;
-    }
-    return;
-  }
   constexpr std::size_t kRows = 256;
   const auto to_input = as_rows(to_input_, dimension_);
   RowMatrix block;
   for (std::size_t begin = 0; begin < count; begin += kRows) {
     const std::size_t used = std::min(kRows, count - begin);
-    block.noalias() = as_rows({planes + begin * rank_, used * rank_}, rank_) * to_input;
-    std::copy_n(block.data(), used * dimension_, out + begin * dimension_);
+    if (columns_.empty()) {
+      block.noalias() = as_rows({planes + begin * rank_, used * rank_}, rank_) * to_input;
+      std::copy_n(block.data(), used * dimension_, out + begin * dimension_);
+    } else {
+      map_normals(planes + begin * rank_, used, columns_, rank_, out + begin * dimension_);
+    }
     for (std::size_t row = begin; row < begin + used; ++row) {
       const double length = normalise<0>(out + row * dimension_, dimension_);
       if (lengths != nullptr) lengths[row] = length;

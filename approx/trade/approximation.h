@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "approx/accuracy.h"
+#include "approx/facets/exact_facets.h"
 #include "approx/facets/facet_layout.h"
 #include "approx/growth/certified_growth.h"
 #include "approx/hull.h"
@@ -122,10 +123,7 @@ class Approximation {
   bool is_convex() const {
     return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
   }
-  /// So many points share planes that rounding has drawn many simplices' planes.
-  bool is_degenerate() const {
-    return 4 * growth_.work().shifted_points.size() >= growth_.work().counters.insertions;
-  }
+  bool is_degenerate() const { return shares_planes(growth_.work()); }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
   const PointTree& left_out_tree();

@@ -13,4 +13,11 @@ void warn_of_open_subspace(std::size_t rank, std::size_t dimension) {
              rank, dimension);
 }
 
+void warn_of_flat_volume(std::size_t rank, std::size_t dimension) {
+  fmt::print(stderr,
+             "ndhull: warning: the points span {0} of {1} dimensions: the hull is the one in that subspace, "
+             "its volume {0}-dimensional and its areas {2}-dimensional\n",
+             rank, dimension, rank == 0 ? 0 : rank - 1);
+}
+
 }  // namespace ndhull

@@ -8,4 +8,7 @@ namespace ndhull {
 /// The planes written of flat data bound nothing off the subspace of the points.
 void warn_of_open_subspace(std::size_t rank, std::size_t dimension);
 
+/// Volume and areas printed of flat data are those of fewer dimensions. Where Qhull stops with QH6154.
+void warn_of_flat_volume(std::size_t rank, std::size_t dimension);
+
 }  // namespace ndhull

@@ -17,6 +17,7 @@
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
+#include "tools/command_line/warnings.h"
 #include "tools/io/attached_points.h"
 #include "tools/io/output_file.h"
 #include "tools/io/point_reader.h"
@@ -85,14 +86,6 @@ void warn_of_open_planes(const QhullSelection& selection, const Hull& hull) {
              selection.facets.size(), hull.facet_count(), fmt::join(selection.open_direction, ", "));
 }
 
-/// Where Qhull stops with QH6154.
-void warn_of_flat_points(const Hull& hull) {
-  fmt::print(stderr,
-             "ndhull: warning: the points span {0} of {1} dimensions: the hull is the one in that subspace, "
-             "its volume {0}-dimensional and its areas {2}-dimensional\n",
-             hull.rank, hull.dimension, hull.rank == 0 ? 0 : hull.rank - 1);
-}
-
 void print_all(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts) {
   // Where nothing else is asked for, the summary is the result.
   const bool is_result = command.formats.empty() && !command.has_summary;
@@ -153,7 +146,8 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   if (command.progress_facets > 0) options.progress = FacetCounter(command.progress_facets);
   interrupt.arm();
   const Result result = compute(points, command, options);
-  if (result.hull.rank < result.hull.dimension && !command.hides_warnings) warn_of_flat_points(result.hull);
+  if (result.hull.rank < result.hull.dimension && !command.hides_warnings)
+    warn_of_flat_volume(result.hull.rank, result.hull.dimension);
   if (result.hull.status == HullStatus::kMemoryLimit) {
     fmt::print(stderr,
                "ndhull: warning: the machine's memory ended growth; the facets are those of {} vertices, and "
