@@ -64,8 +64,9 @@ struct HullOptions {
   /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
   /// the planes are wanted.
   bool certifies_planes = true;
-  /// Simplices will be asked for: the hull is not looked for by whole facets
-  /// (core/whole_facets/double_description.h), nor without its complex (approx/slabs/star_hull.h).
+  /// Simplices will be asked for: an exact hull is not looked for by whole facets
+  /// (core/whole_facets/double_description.h), no other taken that has very many simplices, nor one without
+  /// its complex (approx/slabs/star_hull.h).
   bool wants_simplices = false;
   /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
   /// once.
@@ -125,6 +126,8 @@ struct HullStatistics {
   std::array<double, static_cast<std::size_t>(Phase::kCount)> seconds{};
   std::vector<std::pair<std::string_view, double>> detail_seconds;  ///< finer clock, for the benchmarks
 };
+
+class HullBuilder;
 
 /// The convex hull of a set of points: facets with certified outer and inner planes.
 ///

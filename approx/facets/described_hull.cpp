@@ -174,7 +174,10 @@ bool HullDescription::closes() {
     for (const double entry : plane) length_sq += entry * entry;
     const double cone = hull_.faces.faces[hull_.faces.facets[facet]].measure / std::sqrt(length_sq);
     hull_.determinants.push_back(cone);
-    for (std::size_t k = 0; k < rank_; ++k) sum[k] += cone * plane[k];
+    for (std::size_t k = 0; k < rank_; ++k) {
+      hull_.area_vectors.push_back(cone * plane[k]);
+      sum[k] += cone * plane[k];
+    }
     surface += cone * std::sqrt(length_sq);
   }
   constexpr double kOpen = 1e-9;

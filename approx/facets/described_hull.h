@@ -21,9 +21,16 @@ struct DescribedHull {
   std::vector<PointId> vertices;     ///< ascending; of equal points the first
   std::vector<double> planes;        ///< facets x rank, in the frame, fitted to all points in them
   std::vector<double> determinants;  ///< per facet: rank! times the volume of its cone from the centre
-  IdRows facet_vertices;             ///< sorted; of a simplicial facet in the order that orients them alike
-  IdRows neighbours;                 ///< facets, sorted; of a simplicial facet number k is opposite vertex k
-  PulledFaces faces;                 ///< vertices are numbers of points
+  std::vector<double>
+      area_vectors;       ///< facets x rank: determinant times plane, summed where facets are joined
+  IdRows facet_vertices;  ///< sorted; of a simplicial facet in the order that orients them alike
+  IdRows neighbours;      ///< facets, sorted; of a simplicial facet number k is opposite vertex k
+  PulledFaces faces;      ///< vertices are numbers of points
+  /// Of facets that are several of the hull's own: where those of each begin among the faces' facets, and the
+  /// end. Empty: each is one.
+  std::vector<std::uint32_t> parts_begin;
+
+  bool is_joined() const { return !parts_begin.empty(); }
 };
 
 /// The search for it, in pieces. It ends without a hull when decisions are not clear.

@@ -145,37 +145,34 @@ void CertifiedGrowth::go_on_from(BegunHull begun) {
   grown_ = std::move(begun.grown);
 }
 
-/// Pauses at certain sizes where most points were shifted. Not for the first few simplices: small hulls are
-/// done before anything else has begun.
-GrowthStop CertifiedGrowth::grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise) {
-  if (!find_otherwise) return grow(work_);
-  constexpr std::uint64_t kFirstAsked = 2048, kMostBetween = std::uint64_t{1} << 20;
-  const auto live_rows = [this] { return work_.complex.row_count - work_.free_count; };
-  std::uint64_t rows = std::max<std::uint64_t>(kFirstAsked, 2 * live_rows());
+/// Growth that pauses now and then where most points were shifted. Not for the first few simplices: small
+/// hulls are done before anything else has begun.
+GrowthStop CertifiedGrowth::grow_asking() {
+  if (is_found_otherwise_) return GrowthStop::kPaused;
+  if (!find_otherwise_) return grow(work_);
+  constexpr std::uint64_t kFirstAsked = 4096, kMostBetween = std::uint64_t{1} << 21;
   for (;;) {
-    work_.options.pause_rows = rows;
-    work_.options.pause_shifted = 0.5;
+    work_.options.pause_made = std::max(kFirstAsked, asked_at_ + std::min(asked_at_, kMostBetween));
     const GrowthStop stop = grow(work_);
-    work_.options.pause_rows = 0;
-    work_.options.pause_shifted = 0.0;
-    if (stop != GrowthStop::kPaused) return stop;
-    std::uint64_t next = rows;
-    for (; next <= live_rows(); next += std::min(next, kMostBetween)) rows = next;
-    if (find_otherwise(rows)) return stop;
-    rows = next;
+    const bool is_asked = stop == GrowthStop::kPaused && work_.options.pause_made == 0;
+    work_.options.pause_made = 0;
+    if (!is_asked) return stop;
+    asked_at_ = work_.counters.made();
+    is_found_otherwise_ = find_otherwise_(asked_at_);
+    if (is_found_otherwise_) return stop;
   }
 }
 
-bool CertifiedGrowth::grow_exactly(const std::function<bool(std::uint64_t)>& find_otherwise) {
+bool CertifiedGrowth::grow_exactly() {
   std::uint64_t searched_all = 0;
   start();
   work_.options.in_regions = !options_.limits.has_any();
   for (std::uint64_t round = 0;; ++round) {
     Clock::time_point phase_start = Clock::now();
-    const GrowthStop stop = grow_asking(find_otherwise);
+    const GrowthStop stop = grow_asking();
     hull_.status = status_of(stop);
     seconds(Phase::kGrowth) += seconds_since(phase_start);
-    if (stop == GrowthStop::kPaused) {
+    if (is_found_otherwise_) {
       drop_paused();
       report_counters();
       return true;
@@ -217,7 +214,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
   Clock::time_point begin = Clock::now();
   if (!work_.waiting.empty()) {
     work_.options.pause_rows = kManyRowsFromSome;
-    const bool is_large = grow(work_) == GrowthStop::kPaused;
+    const bool is_large = grow_asking() == GrowthStop::kPaused;
     work_.options.pause_rows = 0;
     seconds(Phase::kGrowth) += seconds_since(begin);
     if (is_large) place_waiting();
@@ -225,7 +222,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
   }
   work_.options.pause_rows = enough_rows;
   work_.options.pause_height = enough_height;
-  const GrowthStop stop = grow(work_);
+  const GrowthStop stop = grow_asking();
   work_.options.pause_rows = 0;
   work_.options.pause_height = HUGE_VAL;
   hull_.status = status_of(stop);
@@ -234,6 +231,7 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
 }
 
 void CertifiedGrowth::locate_left_out(double useful_slack) {
+  if (is_found_otherwise_) return;
   forget_waiting();  // what is left out goes back by `repair`
   drop_paused();
   const Clock::time_point begin = Clock::now();
@@ -254,7 +252,8 @@ bool CertifiedGrowth::may_search(std::size_t points) {
 }
 
 bool CertifiedGrowth::may_cover() {
-  const bool has_ended = hull_.status == HullStatus::kTimeLimit || hull_.status == HullStatus::kInterrupted;
+  const bool has_ended = is_found_otherwise_ || hull_.status == HullStatus::kTimeLimit ||
+                         hull_.status == HullStatus::kInterrupted;
   if (has_ended) return false;
   if (options_.stop.stop_requested()) {
     hull_.status = HullStatus::kInterrupted;

@@ -38,11 +38,13 @@ class CertifiedGrowth {
   void go_on_from(BegunHull begun);
 
   /// Until no point is outside: every one is proven inside, or goes back and growth goes on, at most a few
-  /// rounds.
-  ///
-  /// `find_otherwise`, if any, is asked now and then, with the simplices so far, while most points that are
-  /// added lie on planes of others: does it have the hull? Then growth ends, and true is returned.
-  bool grow_exactly(const std::function<bool(std::uint64_t)>& find_otherwise);
+  /// rounds. Returns true when the hull was found otherwise instead.
+  bool grow_exactly();
+
+  /// Before growth: `find` is asked now and then, with the simplices made so far, while most points that are
+  /// added lie on planes of others. Does it have the exact hull? Then growth ends as if it were limited.
+  void ask_otherwise(std::function<bool(std::uint64_t)> find) { find_otherwise_ = std::move(find); }
+  bool is_found_otherwise() const { return is_found_otherwise_; }
 
   /// Until no point is more than `outside_width` above the simplex it lies over, or there are `enough_rows`
   /// simplices (0: no end there) and no point is more than `enough_height` above, or a limit is hit.
@@ -98,7 +100,7 @@ class CertifiedGrowth {
   WorkEnd end_of_merging() const;
   /// Of a step after growth that was cut short.
   void note_end(bool is_cut_short);
-  bool is_limited() const { return hull_.status != HullStatus::kComplete; }
+  bool is_limited() const { return hull_.status != HullStatus::kComplete || is_found_otherwise_; }
   /// Are the points about as rough as the shift? Most insertions were undone, and growth has ended, or points
   /// are left outside by far more than it: a larger shift will do. Never of one that is not the default or
   /// more, nor of one so large that planes would no longer be told apart.
@@ -139,7 +141,7 @@ class CertifiedGrowth {
   void tell(Phase phase, std::uint64_t points_left, double furthest) const {
     tell(phase, points_left, furthest, work_.complex.row_count - work_.free_count, 0);
   }
-  GrowthStop grow_asking(const std::function<bool(std::uint64_t)>& find_otherwise);
+  GrowthStop grow_asking();
   void grow_before_placing();
   bool holds_some_waiting();
   void place_waiting();
@@ -163,6 +165,9 @@ class CertifiedGrowth {
   WorkLimits limits_;
   std::optional<GrownHull> grown_;  // until it has started
   bool has_started_ = false, grows_from_some_ = false, is_too_rough_ = false;
+  std::function<bool(std::uint64_t)> find_otherwise_;  // none: nothing is asked
+  bool is_found_otherwise_ = false;
+  std::uint64_t asked_at_ = 0;  // simplices made
   std::vector<bool> certificate_wanted_;
   KnownHighest known_highest_;
   std::vector<bool> proven_;  // inside by more than kWellInside; empty: nothing was proven early

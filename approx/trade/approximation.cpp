@@ -43,7 +43,7 @@ constexpr std::size_t kPartOfMean = 4;
 
 Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
                              std::vector<double> factor, CertifiedGrowth& growth, Hull& hull,
-                             double input_bytes, bool has_run_out_before)
+                             double input_bytes, EarlierRun earlier)
     : frame_(frame),
       accuracy_(accuracy),
       lengths_(lengths),
@@ -51,7 +51,7 @@ Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const
       growth_(growth),
       hull_(hull),
       input_bytes_(input_bytes),
-      has_run_out_before_(has_run_out_before) {}
+      earlier_(earlier) {}
 
 FacetClusters Approximation::run() {
   if (accuracy_.facets > 0) return run_count();
@@ -156,6 +156,12 @@ bool Approximation::keeps_hull(const Covering& covering) const {
   for (const FittedPlane& plane : covering.planes)
     normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
   return find_open_direction(normals, space_->rank()).bounded;
+}
+
+/// Of a coarse hull: is it worth its time to grow the exact one before anything else is looked for?
+bool Approximation::may_be_few_exact_facets() {
+  return is_degenerate() && growth_.furthest_height() > 0.0 && !growth_.is_limited() &&
+         !earlier_.has_tried_exact && !growth_.options().limits.has_any();
 }
 
 bool Approximation::has_few_small(std::size_t facets, std::size_t simplices) {

@@ -44,14 +44,21 @@ inline constexpr double kShareForGrowth = 0.25;
 /// Rounds of smaller slabs and more growth before the best so far is taken.
 inline constexpr int kWidthRounds = 24;
 
+/// What an earlier run with the same points has shown.
+struct EarlierRun {
+  bool has_run_out = false;      ///< of memory: it may end as before
+  bool has_tried_exact = false;  ///< as far as that was worth it: it is not what is wanted
+  bool limits_work = false;      ///< the limit on simplices is one on work: facets found whole may have more
+};
+
 /// One approximate hull on its way.
 class Approximation {
  public:
   /// All must outlive this. `factor`: gradient_factor of the frame and the length unit. `input_bytes`: of the
-  /// input that growth's points were kept of. `has_run_out_before`: memory has ended the same growth once.
+  /// input that growth's points were kept of.
   Approximation(const Frame& frame, const Accuracy& accuracy, const ResolvedAccuracy& lengths,
                 std::vector<double> factor, CertifiedGrowth& growth, Hull& hull, double input_bytes,
-                bool has_run_out_before);
+                EarlierRun earlier);
 
   /// Grows the hull and says which simplices become which facet. The complex may keep free rows; cluster_of
   /// has an entry for each row. No clusters: all facets are simplices so far.
@@ -61,6 +68,9 @@ class Approximation {
   FacetClusters run();
   /// Is it asked for in a way that a hull without its complex answers, which has no early end?
   bool may_do_without_complex() const;
+  /// Is the exact hull to be tried instead, since so many points share planes that it may have no more facets
+  /// than are asked for? Then run() has ended early.
+  bool wants_exact_first() const { return wants_exact_first_; }
   /// What run() found instead of clusters, if it did.
   std::optional<StarHull>& star_hull() { return star_hull_; }
   /// find_outwards of all rows, if run() asked for them; else no memory.
@@ -123,6 +133,7 @@ class Approximation {
   bool is_convex() const {
     return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
   }
+  bool may_be_few_exact_facets();
   bool is_degenerate() const { return shares_planes(growth_.work()); }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
@@ -152,7 +163,8 @@ class Approximation {
   CertifiedGrowth& growth_;
   Hull& hull_;
   double input_bytes_;
-  bool has_run_out_before_;
+  EarlierRun earlier_;
+  bool wants_exact_first_ = false;
   bool has_too_many_vertices_ = false;  // for stars, as far as is foreseen
   std::optional<StarHull> star_hull_;
   HugeArray<double> determinants_;  // per row, of the hull as it is now; no memory: not known

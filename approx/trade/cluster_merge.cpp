@@ -12,7 +12,6 @@
 
 #include "core/ids.h"
 #include "core/machine/blocks.h"
-#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -32,12 +31,10 @@ void put_union(const std::vector<std::uint32_t>& a, const std::vector<std::uint3
 
 class Merging {
  public:
-  Merging(const SimplicialComplex& complex, const WidthSpace& space, const MergeRule& rule,
-          Covering& covering)
-      : complex_(complex), space_(space), rule_(rule), covering_(covering) {}
+  Merging(const WidthSpace& space, const MergeRule& rule) : space_(space), rule_(rule) {}
 
-  MergeCounts run() {
-    make_clusters();
+  JoinedFacets run(std::vector<FacetCorners> facets, std::vector<FittedPlane> planes) {
+    make_clusters(std::move(facets), std::move(planes));
     announce_all();
     while (!offers_.empty() && live_ > rule_.least_facets) {
       const Offer best = offers_.top();
@@ -45,8 +42,7 @@ class Merging {
       take(best);
     }
     counts_.refused = count_refused();
-    write_back();
-    return counts_;
+    return joined_facets();
   }
 
  private:
@@ -55,8 +51,11 @@ class Merging {
     std::vector<std::uint32_t> vertices, neighbours;  // sorted
     std::vector<std::uint32_t> tops;                  // points that made the plane's height
     std::vector<double> centrum;
+    double given_weight = 0.0;  // 0: none
     std::uint32_t version = 0;
     std::uint32_t joined = kNone;
+
+    double weight() const { return given_weight > 0.0 ? given_weight : static_cast<double>(vertices.size()); }
   };
   /// What the width of an offer is: each stage's is no less than that of the one before, and costs more.
   enum class Stage : std::uint8_t {
@@ -80,31 +79,24 @@ class Merging {
     std::vector<std::uint32_t> united, near;  // the union's vertices; points that are likely to be above it
     PlaneFitWork fit;
   };
-  /// What a thread that lists clusters needs: the last that met a vertex, or a facet.
-  struct ListWork {
-    std::vector<std::uint32_t> vertex_seen, facet_seen;
-  };
 
   std::uint32_t root(std::uint32_t id) const {
     while (clusters_[id].joined != kNone) id = clusters_[id].joined;
     return id;
   }
 
-  void make_clusters() {
-    const std::size_t count = covering_.planes.size();
+  void make_clusters(std::vector<FacetCorners> facets, std::vector<FittedPlane> planes) {
+    const std::size_t count = planes.size();
     clusters_.resize(count);
     live_ = count;
-    constexpr std::size_t kSmallTables = std::size_t{1} << 21;
-    if (count * (space_.vertex_count() + count) <= kSmallTables) {
-      list_by_tables();
-    } else {
-      list_by_facets();
-    }
     for_each_block(count, kClustersAtATime, [&](std::size_t begin, std::size_t end) {
       for (std::size_t id = begin; id < end; ++id) {
         Cluster& cluster = clusters_[id];
-        cluster.plane = std::move(covering_.planes[id]);
-        if (cluster.plane.height == 0.0) {  // a simplex with its own plane
+        cluster.vertices = std::move(facets[id].vertices);
+        cluster.neighbours = std::move(facets[id].neighbours);
+        cluster.given_weight = facets[id].weight;
+        cluster.plane = std::move(planes[id]);
+        if (!is_measured(cluster.plane)) {  // a simplex with its own plane
           cluster.plane =
               measure_plane(space_, cluster.plane.normal, cluster.vertices, pair_work_.local().fit);
         } else {
@@ -116,80 +108,17 @@ class Merging {
     });
   }
 
-  /// Vertices and neighbours of few facets: a table each, filled as the rows stand in memory.
-  void list_by_tables() {
-    const std::size_t count = clusters_.size(), vertices = space_.vertex_count();
-    std::vector<std::uint8_t> has_vertex(count * vertices, 0), has_neighbour(count * count, 0);
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
-      const std::size_t id = covering_.facet_of[row];
-      if (id == kNone) continue;
-      for (const PointId point : complex_.vertices(SimplexId{row}))
-        has_vertex[id * vertices + space_.row_of(point)] = 1;
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{row}))
-        has_neighbour[id * count + covering_.facet_of[neighbour.value]] = 1;
-    }
-    const auto list = [](const std::uint8_t* flags, std::size_t size, std::vector<std::uint32_t>& entries) {
-      for (std::uint32_t entry = 0; entry < size; ++entry)
-        if (flags[entry] != 0) entries.push_back(entry);
-    };
-    for (std::size_t id = 0; id < count; ++id) {
-      has_neighbour[id * count + id] = 0;
-      list(has_vertex.data() + id * vertices, vertices, clusters_[id].vertices);
-      list(has_neighbour.data() + id * count, count, clusters_[id].neighbours);
-    }
-  }
-
-  void list_by_facets() {
-    const std::size_t count = clusters_.size();
-    const FacetMembers members_of(covering_);
-    tbb::enumerable_thread_specific<ListWork> list_work([&] {
-      return ListWork{std::vector<std::uint32_t>(space_.table().count(), kNone),
-                      std::vector<std::uint32_t>(count, kNone)};
-    });
-    for_each_block(count, kClustersAtATime, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t id = begin; id < end; ++id)
-        list_facet(static_cast<std::uint32_t>(id), members_of.of(id), list_work.local());
-    });
-  }
-
-  void list_facet(std::uint32_t id, std::span<const std::uint32_t> rows, ListWork& work) {
-    const auto add = [&](std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& seen,
-                         std::uint32_t entry) {
-      if (seen[entry] == id) return;
-      seen[entry] = id;
-      list.push_back(entry);
-    };
-    constexpr std::size_t kAskedBefore = 8, kNeighboursAhead = 3;  // whose way from memory has begun
-    Cluster& cluster = clusters_[id];
-    work.facet_seen[id] = id;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const SimplexId later{rows[std::min(i + kAskedBefore, rows.size() - 1)]};
-      prefetch(complex_.vertices(later).data());
-      prefetch(&complex_.neighbours(later).back());
-      const SimplexId soon{rows[std::min(i + kNeighboursAhead, rows.size() - 1)]};
-      for (const SimplexId neighbour : complex_.neighbours(soon))
-        prefetch(&covering_.facet_of[neighbour.value]);
-      for (const PointId point : complex_.vertices(SimplexId{rows[i]}))
-        add(cluster.vertices, work.vertex_seen, space_.row_of(point));
-      for (const SimplexId neighbour : complex_.neighbours(SimplexId{rows[i]}))
-        add(cluster.neighbours, work.facet_seen, covering_.facet_of[neighbour.value]);
-    }
-    std::sort(cluster.vertices.begin(), cluster.vertices.end());
-    std::sort(cluster.neighbours.begin(), cluster.neighbours.end());
-  }
-
   bool is_wanted(const Cluster& a, const Cluster& b) const {
     return rule_.wants(a.plane, a.centrum, b.plane, b.centrum);
   }
 
-  /// work.normal: the mean of the normals, weighted by the number of vertices.
+  /// work.normal: the mean of the normals by their weights.
   void take_mean(const Cluster& a, const Cluster& b, PairWork& work) const {
     std::vector<double>& normal = work.normal;
     normal.resize(space_.rank());
     double length_sq = 0.0;
     for (std::size_t k = 0; k < normal.size(); ++k) {
-      normal[k] = static_cast<double>(a.vertices.size()) * a.plane.normal[k] +
-                  static_cast<double>(b.vertices.size()) * b.plane.normal[k];
+      normal[k] = a.weight() * a.plane.normal[k] + b.weight() * b.plane.normal[k];
       length_sq += normal[k] * normal[k];
     }
     if (!(length_sq > 0.0)) normal = a.plane.normal, length_sq = 1.0;
@@ -322,6 +251,7 @@ class Merging {
     --live_;
     into.plane = std::move(plane);
     into.vertices = work.united;
+    into.given_weight += from.given_weight;
     into.tops.assign(work.fit.points.tops().begin(), work.fit.points.tops().end());
     ++into.version;
     from.joined = a;
@@ -335,8 +265,8 @@ class Merging {
       if (const std::optional<Offer> offer = first_offer(std::min(a, id), std::max(a, id), work))
         offers_.push(*offer);
     }
-    from = Cluster{
-        .plane = {}, .vertices = {}, .neighbours = {}, .tops = {}, .centrum = {}, .version = 0, .joined = a};
+    from = Cluster();
+    from.joined = a;
   }
 
   static void rename(std::vector<std::uint32_t>& sorted, std::uint32_t from, std::uint32_t to) {
@@ -356,25 +286,21 @@ class Merging {
     return refused;
   }
 
-  void write_back() {
+  JoinedFacets joined_facets() {
+    JoinedFacets result;
     std::vector<std::uint32_t> facet(clusters_.size(), kNone);
-    std::vector<FittedPlane> planes;
-    covering_.widest = 0.0;
     for (std::uint32_t id = 0; id < clusters_.size(); ++id) {
       if (clusters_[id].joined != kNone) continue;
-      facet[id] = static_cast<std::uint32_t>(planes.size());
-      covering_.widest = std::max(covering_.widest, clusters_[id].plane.width());
-      planes.push_back(std::move(clusters_[id].plane));
+      facet[id] = static_cast<std::uint32_t>(result.planes.size());
+      result.planes.push_back(std::move(clusters_[id].plane));
     }
-    covering_.planes = std::move(planes);
-    for (std::uint32_t& of_row : covering_.facet_of)
-      if (of_row != kNone) of_row = facet[root(of_row)];
+    for (std::uint32_t id = 0; id < clusters_.size(); ++id) result.facet_of.push_back(facet[root(id)]);
+    result.counts = counts_;
+    return result;
   }
 
-  const SimplicialComplex& complex_;
   const WidthSpace& space_;
   const MergeRule& rule_;
-  Covering& covering_;
   std::vector<Cluster> clusters_;
   std::size_t live_ = 0;
   std::priority_queue<Offer> offers_;
@@ -384,9 +310,21 @@ class Merging {
 
 }  // namespace
 
+JoinedFacets join_facets(std::vector<FacetCorners> facets, std::vector<FittedPlane> planes,
+                         const WidthSpace& space, const MergeRule& rule) {
+  return Merging(space, rule).run(std::move(facets), std::move(planes));
+}
+
 MergeCounts merge_clusters(const SimplicialComplex& complex, const WidthSpace& space, const MergeRule& rule,
                            Covering& covering) {
-  return Merging(complex, space, rule, covering).run();
+  std::vector<FacetCorners> facets = corners_of(complex, space, covering);
+  JoinedFacets joined = join_facets(std::move(facets), std::move(covering.planes), space, rule);
+  covering.planes = std::move(joined.planes);
+  covering.widest = 0.0;
+  for (const FittedPlane& plane : covering.planes) covering.widest = std::max(covering.widest, plane.width());
+  for (std::uint32_t& of_row : covering.facet_of)
+    if (of_row != kNone) of_row = joined.facet_of[of_row];
+  return joined.counts;
 }
 
 }  // namespace ndhull

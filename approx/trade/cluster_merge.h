@@ -7,10 +7,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "approx/slabs/merge_rule.h"
 #include "approx/slabs/slab_cover.h"
 #include "approx/slabs/width_space.h"
+#include "approx/trade/facet_corners.h"
 #include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
@@ -19,6 +21,18 @@ namespace ndhull {
 struct MergeCounts {
   std::uint64_t merges = 0, refused = 0;  ///< refused: wanted by the rule, forbidden by the cap
 };
+
+/// What became of facets that were joined.
+struct JoinedFacets {
+  std::vector<std::uint32_t> facet_of;  ///< per facet before: which it is in now
+  std::vector<FittedPlane> planes;      ///< per facet now, all measured
+  MergeCounts counts;
+};
+
+/// merge_clusters of facets that are no sets of simplices. Planes that were not measured are: facets are in
+/// the order of their first parts.
+JoinedFacets join_facets(std::vector<FacetCorners> facets, std::vector<FittedPlane> planes,
+                         const WidthSpace& space, const MergeRule& rule);
 
 /// Merges facets, starting from those of `covering`, until no pair of neighbours is left that the rule wants
 /// merged and the cap allows.

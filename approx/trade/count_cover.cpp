@@ -319,6 +319,8 @@ FacetClusters Approximation::run_count() {
   CountSearch search;
   const double seconds_at_first = growth_.seconds_left();
   SlabGuess guess = is_given ? SlabGuess{} : guess_slab(count, search);
+  wants_exact_first_ = !is_given && may_be_few_exact_facets();
+  if (wants_exact_first_) return FacetClusters{};
   foresee_coverings(seconds_at_first, search);
   double outside_width =
       is_given ? lengths_.outside_width : kShareForGrowth * (is_thorough() ? guess.slab : guess.coarse);
@@ -332,6 +334,7 @@ FacetClusters Approximation::run_count() {
     take_in(outside_width);
     grow_for_count(count, outside_width, guess);
   }
+  if (growth_.is_found_otherwise()) return FacetClusters{};
   if (is_whole() && count_exact_facets(growth_.work(), growth_.coordinates()) <= count)
     return FacetClusters{};       // the exact hull it is
   search.narrowest = Covering{};  // of the coarse hull

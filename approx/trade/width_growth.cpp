@@ -174,7 +174,7 @@ bool Approximation::find_stars(double outside_width, double slab) {
     const bool is_grown = growth_.grow_to(outside_width, rows, HUGE_VAL);
     if (growth_.is_limited()) return false;
     const bool is_near = is_grown || growth_.furthest_height() <= kGrowthShareOfHuge * slab;
-    if (is_near && !has_run_out_before_) return false;
+    if (is_near && !earlier_.has_run_out) return false;
     if (is_near || rows == enough) break;
   }
   // Heights fall about so fast as simplices become more: balls and gaussian points, somewhat slower than
@@ -193,7 +193,7 @@ bool Approximation::find_stars(double outside_width, double slab) {
       input_bytes_ >= kLargeInput &&
       rows * (16.0 * rank + 5.0) > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
   const bool has_no_room = most_rows > 0 && rows > static_cast<double>(most_rows);
-  if (!is_too_large && !has_no_room && !has_run_out_before_) return false;
+  if (!is_too_large && !has_no_room && !earlier_.has_run_out) return false;
   return take_star_hull(slab, rows);
 }
 

@@ -30,10 +30,10 @@ class Walker {
       : complex_(complex),
         points_(points),
         ball_(ball),
-        useful_(useful),
-        rank_(static_cast<Eigen::Index>(complex.rank)) {}
+        rank_(static_cast<Eigen::Index>(complex.rank)),
+        useful_(std::max(useful, 2.0 * rounding(2.0) / ball.inner_radius)) {}
 
-  /// Is the proof as good as is wanted? Inside, or outside by what it says and no less.
+  /// Is the proof as good as is wanted, or as it can be? Inside, or outside by what it says and no less.
   bool is_settled(const LocatedPoint& located) const {
     return located.gauge <= useful_ || located.slack <= useful_;
   }
@@ -93,19 +93,24 @@ class Walker {
     if (!result.lambda.allFinite()) return result;
     const double positive = result.lambda.cwiseMax(0.0).sum();
     const double negative = (-result.lambda).cwiseMax(0.0).sum();
-    const double n = static_cast<double>(rank_);
-    const double computed = 2.0 * (n + 2.0) * 0x1p-53 * n * ball_.reach * (1.0 + positive + negative);
-    const double residual = (y - columns * result.lambda).lpNorm<1>() + computed;
+    const double residual = (y - columns * result.lambda).lpNorm<1>() + rounding(1.0 + positive + negative);
     result.slack = (negative * ball_.reach + residual) / ball_.inner_radius;
     result.gauge = positive + result.slack - 1.0;
     return result;
   }
 
+  /// Of a residual of terms of this sum of sizes, in reaches. In a hull that is thin somewhere its slack can be
+  /// more than a shift in any simplex.
+  double rounding(double sizes) const {
+    const double n = static_cast<double>(rank_);
+    return 2.0 * (n + 2.0) * 0x1p-53 * n * ball_.reach * sizes;
+  }
+
   const SimplicialComplex& complex_;
   const double* points_;
   HullBall ball_;
-  double useful_;
   Eigen::Index rank_;
+  double useful_;
 };
 
 std::vector<LocatedPoint> unlocated(std::span<const PointId> queries) {

@@ -222,6 +222,7 @@ class Grower {
   void take_outside(std::uint32_t id);
 
   bool is_to_pause(double furthest) const;
+  bool has_made_enough() const;
   bool may_grow_in_regions();
   bool grow_in_regions(double furthest);
   void make_regions();
@@ -322,6 +323,7 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
     clock.lap(books_.counters.seconds_match);
     if (!sound) {
       ++books_.counters.rejected;
+      books_.counters.undone += new_count_;
       undo_cone();
       continue;
     }
@@ -340,9 +342,14 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
 template <std::size_t D>
 bool Grower<D>::is_to_pause(double furthest) const {
   const GrowthOptions& options = work_.options;
-  return options.pause_rows != 0 && live_rows() >= options.pause_rows && furthest <= options.pause_height &&
-         static_cast<double>(work_.shifted_points.size()) >=
-             options.pause_shifted * static_cast<double>(books_.counters.insertions);
+  return options.pause_rows != 0 && live_rows() >= options.pause_rows && furthest <= options.pause_height;
+}
+
+template <std::size_t D>
+bool Grower<D>::has_made_enough() const {
+  const std::uint64_t enough = work_.options.pause_made;
+  return enough != 0 && books_.counters.made() >= enough &&
+         2 * work_.shifted_points.size() >= books_.counters.insertions;
 }
 
 template <std::size_t D>
@@ -356,10 +363,14 @@ GrowthStop Grower<D>::run() {
       work_.options.pause_rows = 0;
       return GrowthStop::kPaused;
     }
-    if (work_.options.poll && books_.counters.created >= polled_at) {
+    if (has_made_enough()) {
+      work_.options.pause_made = 0;
+      return GrowthStop::kPaused;
+    }
+    if (work_.options.poll && books_.counters.made() >= polled_at) {
       const GrowthStop stop = work_.options.poll(books_.points_outside, furthest.height);
       if (stop != GrowthStop::kNoOutsidePoints) return stop;
-      polled_at = books_.counters.created + 4096;
+      polled_at = books_.counters.made() + 4096;
     }
     if (may_grow_in_regions() && grow_in_regions(furthest.height)) continue;
     const std::uint32_t apex_id = head_[row] - 1;

@@ -68,6 +68,7 @@ double height_of_few(const GrowthWork& work, std::size_t few) {
 void GrowthCounters::add(const GrowthCounters& other, double share) {
   created += other.created;
   insertions += other.insertions;
+  undone += other.undone;
   rejected += other.rejected;
   set_aside += other.set_aside;
   in_regions += other.in_regions;

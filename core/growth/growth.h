@@ -38,11 +38,13 @@ struct GrowthOptions {
   /// set.
   std::vector<double> gradient_factor;
   std::uint64_t seed = 1;
-  /// Growth returns kPaused once when it has this many simplices, no point is more than pause_height above,
-  /// and this part of the points added was shifted; 0 rows: never.
+  /// Growth returns kPaused once when it has this many simplices and no point is more than pause_height above;
+  /// 0 rows: never.
   std::uint64_t pause_rows = 0;
   double pause_height = HUGE_VAL;
-  double pause_shifted = 0.0;
+  /// The same when so many simplices were made, with those that were undone, and half of the points added were
+  /// shifted; 0: never.
+  std::uint64_t pause_made = 0;
   /// Points far apart may be added side by side where insertions have become small: the furthest of all is
   /// then not always next. Only without limits: an early end should have the furthest points.
   bool in_regions = false;
@@ -54,12 +56,14 @@ struct GrowthOptions {
 
 struct GrowthCounters {
   std::uint64_t created = 0;     ///< simplices ever made
+  std::uint64_t undone = 0;      ///< simplices of rejected insertions
   std::uint64_t insertions = 0;  ///< points added
   std::uint64_t rejected = 0;    ///< insertions tried that did not close and were undone
   std::uint64_t set_aside = 0;   ///< points given up after all tries; certify finds out what they cost
   std::uint64_t in_regions = 0;  ///< of the insertions: made by regions
   double seconds_visible = 0.0, seconds_cone = 0.0, seconds_match = 0.0, seconds_partition = 0.0;
 
+  std::uint64_t made() const { return created + undone; }
   double seconds() const { return seconds_visible + seconds_cone + seconds_match + seconds_partition; }
   /// `share`: of the seconds.
   void add(const GrowthCounters& other, double share);

@@ -8,6 +8,7 @@
 
 #include "tests/approximate/approximate_laws.h"
 #include "tests/hull/hull_support.h"
+#include "tests/support/degeneracies.h"
 
 namespace ndhull {
 namespace {
@@ -64,23 +65,6 @@ TEST(NearRoundingLaw, ANumberThatTheExactHullKeepsGivesIt) {
       }
     }
   }
-}
-
-/// All pairs of a point of one set and a point of the other.
-PointSet product(const PointSet& left, const PointSet& right) {
-  PointSet set;
-  set.dimension = left.dimension + right.dimension;
-  const auto add = [&](const PointSet& from, std::size_t row) {
-    const auto first = from.coordinates.begin() + static_cast<std::ptrdiff_t>(row * from.dimension);
-    set.coordinates.insert(set.coordinates.end(), first, first + static_cast<std::ptrdiff_t>(from.dimension));
-  };
-  for (std::size_t i = 0; i < left.coordinates.size() / left.dimension; ++i) {
-    for (std::size_t j = 0; j < right.coordinates.size() / right.dimension; ++j) {
-      add(left, i);
-      add(right, j);
-    }
-  }
-  return set;
 }
 
 /// With five corners: regular, or without symmetry.

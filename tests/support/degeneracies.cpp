@@ -145,6 +145,22 @@ PointSet with_interior_points(const PointSet& set, std::size_t count, std::uint6
   return result;
 }
 
+PointSet product(const PointSet& left, const PointSet& right) {
+  PointSet set;
+  set.dimension = left.dimension + right.dimension;
+  const auto add = [&](const PointSet& from, std::size_t row) {
+    const auto first = from.coordinates.begin() + static_cast<std::ptrdiff_t>(row * from.dimension);
+    set.coordinates.insert(set.coordinates.end(), first, first + static_cast<std::ptrdiff_t>(from.dimension));
+  };
+  for (std::size_t i = 0; i < left.rows(); ++i) {
+    for (std::size_t j = 0; j < right.rows(); ++j) {
+      add(left, i);
+      add(right, j);
+    }
+  }
+  return set;
+}
+
 PointSet moved_by_one_ulp(const PointSet& set, std::uint64_t seed) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   PortableRandom random(seed);

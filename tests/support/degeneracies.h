@@ -38,6 +38,8 @@ PointSet with_duplicates(const PointSet& set, std::size_t count, std::uint64_t s
 /// `count` points behind the others, convex combinations of all rows: strictly inside when the rows span the
 /// space, up to rounding.
 PointSet with_interior_points(const PointSet& set, std::size_t count, std::uint64_t seed);
+/// All pairs of a point of one set and a point of the other: each facet is one of either's with all of the other.
+PointSet product(const PointSet& left, const PointSet& right);
 /// Each coordinate moved up or down to the next double, or left, at random.
 PointSet moved_by_one_ulp(const PointSet& set, std::uint64_t seed);
 

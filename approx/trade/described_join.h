@@ -1,0 +1,27 @@
+// Whole facets joined for a width, where simplices were never made.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "approx/facets/described_hull.h"
+#include "approx/slabs/width_space.h"
+
+namespace ndhull {
+
+/// Of more facets than this pairs are not looked at.
+inline constexpr std::size_t kMostDescribedJoined = 1024;
+
+/// The sum of determinant times |R plane| over the facets: of a hull that is not joined a multiple of its area.
+///
+/// Shapes  factor: rank x rank, R.
+double surface_of(const DescribedHull& hull, std::span<const double> factor);
+
+/// Facets that are no wider than `width`: pairs of neighbours become one, the narrowest first (join_facets).
+/// At least rank + 1 stay, and their outer planes bound a region. The hull stays as it is when no two join.
+///
+/// Shapes  space: of the hull's vertices and no other point.
+/// Cost    as join_facets: a fit for each pair of neighbours that may fit.
+void join_described(DescribedHull& hull, const WidthSpace& space, double width);
+
+}  // namespace ndhull
