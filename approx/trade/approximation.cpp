@@ -182,6 +182,13 @@ bool Approximation::is_worth_joining_again(std::size_t facets, std::size_t simpl
          (left_out > kLeftOutMany && has_few_small(facets, simplices));
 }
 
+/// Of very few facets, where growth has left out more points than there are vertices, a quarter is saved in
+/// some milliseconds, and the exact hull takes longer still.
+bool Approximation::is_worth_looking_further(std::size_t facets) const {
+  constexpr std::size_t kVeryFew = 40;
+  return is_thorough() || (facets <= kVeryFew && space_->share_of_others() > kLeftOutMany);
+}
+
 void Approximation::join_neighbours(Covering& covering, double width) const {
   const MergeRule any{.max_cosine = -1.0, .width_cap = width, .least_facets = space_->rank() + 1};
   Covering joined = covering;
@@ -298,7 +305,8 @@ FacetClusters Approximation::run_width() {
     }
     const TrueWidths widths = true_widths(covering);
     const double widest = widths.widest();
-    if (is_thorough() && widest <= target) look_for_fewer(target, covering);
+    if (widest <= target && is_worth_looking_further(covering.planes.size()))
+      look_for_fewer(target, covering);
     if (widest <= target || !may_grow || growth_.is_late()) break;
     const Offenders offenders = add_offenders(covering, widths, target);
     growth_.put_back(offenders.above_simplices);

@@ -81,6 +81,7 @@ class Approximation {
   static bool has_few_small(std::size_t facets, std::size_t simplices);
   bool is_worth_joining(std::size_t facets, std::size_t simplices) const;
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
+  bool is_worth_looking_further(std::size_t facets) const;
   void join_neighbours(Covering& covering, double width) const;
   std::span<const double> find_determinants(const BlockWork& also);
   std::optional<DualFacets> find_disjoint_slabs(double width, FacetLimit* limit_of_count = nullptr);

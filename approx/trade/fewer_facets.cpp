@@ -21,7 +21,7 @@ namespace {
 
 /// Pairs join into facets this much wider than may be; by this part less each time.
 constexpr double kLooser = 0.3, kLooserLessEachTime = 0.8;
-constexpr int kMostCycles = 8;
+constexpr int kMostCycles = 8, kMostCyclesQuick = 1;
 /// Turns before facets that are still too wide are split, and at most after that.
 constexpr int kQuietTurns = 4, kMostSplits = 12;
 /// A cycle that leaves more than this part of the facets was the last.
@@ -92,7 +92,8 @@ bool Approximation::look_further(double width, Covering& covering) {
   bool is_found = covering.widest <= width;
   balance.turn();
   double looser = kLooser;
-  for (int cycle = 0; cycle < kMostCycles && !growth_.is_late(); ++cycle, looser *= kLooserLessEachTime) {
+  const int most_cycles = is_thorough() ? kMostCycles : kMostCyclesQuick;
+  for (int cycle = 0; cycle < most_cycles && !growth_.is_late(); ++cycle, looser *= kLooserLessEachTime) {
     join((1.0 + looser) * cap);
     for (int turn = 0; turn < kQuietTurns && !growth_.is_late(); ++turn) balance.turn();
     for (int turn = 0; turn < kMostSplits && !growth_.is_late(); ++turn) {
