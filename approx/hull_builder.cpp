@@ -49,14 +49,18 @@ Hull HullBuilder::run(BegunHull* begun) {
     complex() = make_segment(growth_->coordinates(), points_.rows);  // without growth
     growth_->want_all();
   } else if (is_exact) {
-    if ((growth_->grow_exactly() || finds_whole_facets_late()) && take_described(factor))
+    if (growth_->grow_exactly() || finds_whole_facets_late()) {
+      if (take_described()) return std::move(hull_);
+      if (earlier_.facets == 0) return again(options_, {.has_tried_exact = true});
+      hull_.status = HullStatus::kFacetLimit;  // an attempt in vain
       return std::move(hull_);
+    }
     if (growth_->is_too_rough()) return with_larger_shift();
     if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
   } else {
     const bool has_room = approximate(factor);
     if (growth_->is_found_otherwise())
-      return take_described(factor) ? std::move(hull_) : again(options_, {.has_tried_exact = true});
+      return take_described() ? std::move(hull_) : again(options_, {.has_tried_exact = true});
     if (wants_exact_first_) return exact_first(lengths);
     if (growth_->is_too_rough()) return with_larger_shift();
     if (!has_room) return again(options_, {.has_run_out = true});
@@ -173,22 +177,25 @@ Hull HullBuilder::again(const HullOptions& options, EarlierRun earlier) {
   return HullBuilder(points_, options, start_, input_bytes_, earlier, std::move(search)).run();
 }
 
-/// The exact hull if it has no more facets than are asked for, else what was asked for.
+/// The exact hull if it has no more facets than are asked for, or joined to that if they were found whole; else
+/// what was asked for.
 Hull HullBuilder::exact_first(const ResolvedAccuracy& lengths) {
   constexpr std::uint64_t kMostSimplices = 1'000'000;  // a second or two
-  Hull exact = with(Accuracy(), lengths, kMostSimplices);
+  const bool may_join = options_.accuracy.effort == Effort::kQuick;
+  Hull exact = with(Accuracy(), lengths, kMostSimplices, may_join ? options_.accuracy.facets : 0);
   const bool is_few = exact.facet_count() <= options_.accuracy.facets;
   if (exact.status == HullStatus::kComplete && is_few) return exact;
   return again(options_, {.has_tried_exact = true});
 }
 
 /// Less than what was asked for, which is what the report compares widths with.
-Hull HullBuilder::with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets) {
+Hull HullBuilder::with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets,
+                       std::uint64_t joined_to) {
   HullOptions options = options_;
   options.accuracy = accuracy;
   options.limits.max_facets = max_facets;
   const bool limits_work = options.limits.max_facets != options_.limits.max_facets;
-  Hull hull = again(options, {.limits_work = limits_work});
+  Hull hull = again(options, {.limits_work = limits_work, .facets = joined_to});
   hull.chosen.width_asked = lengths.width_asked();
   return hull;
 }
@@ -211,8 +218,8 @@ void HullBuilder::find_whole_facets() {
   const Accuracy& accuracy = options_.accuracy;
   const bool is_target = !accuracy.merges_neighbours() && !accuracy.outside_width.is_set() &&
                          !accuracy.is_for_volume() && accuracy.effort == Effort::kQuick &&
-                         !earlier_.has_tried_exact && !earlier_.has_run_out;
-  if ((!accuracy.is_exact() && !is_target) || options_.triangulate ||
+                         !earlier_.has_run_out;
+  if (earlier_.has_tried_exact || (!accuracy.is_exact() && !is_target) || options_.triangulate ||
       (accuracy.is_exact() && options_.wants_simplices && !earlier_.limits_work) ||
       options_.shift < HullOptions().shift || points_.rows > HullDescription::kMostPoints || frame_.rank <= 2)
     return;
@@ -249,27 +256,28 @@ bool HullBuilder::finds_whole_facets_late() {
 }
 
 /// Whole facets were found: are they what is wanted, or can they be joined to that?
-bool HullBuilder::take_described(const std::vector<double>& factor) {
+bool HullBuilder::take_described() {
   constexpr std::uint64_t kMostListed = std::uint64_t{1} << 24;  // where simplices are wanted
   const Clock::time_point start = Clock::now();
   HullDescription& description = whole_facets_->description;
   if (options_.wants_simplices && description.simplex_count() > kMostListed) return false;
   hull_.statistics.created_facets = description.created_facets();
   DescribedHull found = description.take();
-  const Accuracy& accuracy = options_.accuracy;
-  if (accuracy.facets > 0 && found.facets > accuracy.facets) return false;
-  const double width = resolve(accuracy, frame_, hull_.length_unit_).width;
-  if (width > 0.0) {
+  const std::uint64_t most = std::max(options_.accuracy.facets, earlier_.facets);
+  const double width = resolve(options_.accuracy, frame_, hull_.length_unit_).width;
+  const bool is_count = most > 0 && found.facets > most;
+  if (is_count || width > 0.0) {
     if (found.facets > kMostDescribedJoined) return false;
-    const WidthSpace space(frame_.rank, factor, growth_->coordinates(), points_.rows, found.vertices, {},
-                           found.facets);
     const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
     hull_.layout_.merged_surface = surface_of(found, area.factor);
     hull_.layout_.surface_exponent = area.exponent;
-    join_described(found, space, width * (1.0 - 1e-9));
-    if (found.is_joined()) hull_.chosen.slab_width = width;
+    const WidthSpace space(frame_.rank, gradient_factor(frame_, hull_.length_unit_), growth_->coordinates(),
+                           points_.rows, found.vertices, {}, found.facets);
+    if (is_count && !join_described_to(found, space, most)) return false;
+    if (!is_count) join_described(found, space, width * (1.0 - 1e-9));
   }
   adopt(std::move(found));
+  if (hull_.is_approximate) hull_.chosen.slab_width = width > 0.0 ? width : hull_.max_facet_width;
   seconds(Phase::kMerge) += seconds_since(start);
   return true;
 }

@@ -73,11 +73,12 @@ class HullBuilder {
 
   Hull again(const HullOptions& options, EarlierRun earlier = {});
   Hull exact_first(const ResolvedAccuracy& lengths);
-  Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets);
+  Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets,
+            std::uint64_t joined_to = 0);
   Hull for_width_instead();
   Hull with_larger_shift();
 
-  bool take_described(const std::vector<double>& factor);
+  bool take_described();
   void adopt(DescribedHull found);
   void adopt(StarHull found);
 

@@ -48,7 +48,9 @@ inline constexpr int kWidthRounds = 24;
 struct EarlierRun {
   bool has_run_out = false;      ///< of memory: it may end as before
   bool has_tried_exact = false;  ///< as far as that was worth it: it is not what is wanted
-  bool limits_work = false;      ///< the limit on simplices is one on work: facets found whole may have more
+  /// An attempt at the exact hull: its limit on simplices is one on work, and facets found whole may have more.
+  bool limits_work = false;
+  std::uint64_t facets = 0;  ///< 0, or how many whole facets of it are joined to
 };
 
 /// One approximate hull on its way.

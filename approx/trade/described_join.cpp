@@ -132,6 +132,16 @@ DescribedHull take_joined(DescribedHull hull, const WidthSpace& space, JoinedFac
   return result;
 }
 
+/// False, and nothing has changed, where what is left would bound no region.
+bool join_if_bounded(DescribedHull& hull, const WidthSpace& space, double cap, std::size_t least_facets) {
+  const MergeRule any{.max_cosine = -1.0, .width_cap = cap, .least_facets = least_facets};
+  JoinedFacets joined = join_facets(corners_of_described(hull, space), own_planes(hull, space), space, any);
+  if (joined.planes.size() == hull.facets) return true;
+  if (!bound_a_region(joined.planes, space.rank())) return false;
+  hull = take_joined(std::move(hull), space, std::move(joined));
+  return true;
+}
+
 }  // namespace
 
 double surface_of(const DescribedHull& hull, std::span<const double> factor) {
@@ -152,14 +162,12 @@ double surface_of(const DescribedHull& hull, std::span<const double> factor) {
 
 void join_described(DescribedHull& hull, const WidthSpace& space, double width) {
   constexpr double kLess = 0.75, kThin = 1e-3;  // of the width
-  for (double cap = width; cap > kThin * width; cap *= kLess) {
-    const MergeRule any{.max_cosine = -1.0, .width_cap = cap, .least_facets = space.rank() + 1};
-    JoinedFacets joined = join_facets(corners_of_described(hull, space), own_planes(hull, space), space, any);
-    if (joined.planes.size() == hull.facets) return;
-    if (!bound_a_region(joined.planes, space.rank())) continue;
-    hull = take_joined(std::move(hull), space, std::move(joined));
-    return;
-  }
+  for (double cap = width; cap > kThin * width; cap *= kLess)
+    if (join_if_bounded(hull, space, cap, space.rank() + 1)) return;
+}
+
+bool join_described_to(DescribedHull& hull, const WidthSpace& space, std::size_t facets) {
+  return join_if_bounded(hull, space, HUGE_VAL, facets) && hull.facets <= facets;
 }
 
 }  // namespace ndhull

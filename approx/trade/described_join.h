@@ -24,4 +24,8 @@ double surface_of(const DescribedHull& hull, std::span<const double> factor);
 /// Cost    as join_facets: a fit for each pair of neighbours that may fit.
 void join_described(DescribedHull& hull, const WidthSpace& space, double width);
 
+/// The same until there are so many facets, at least rank + 1. False, and the hull is as it was: their planes
+/// bound no region.
+bool join_described_to(DescribedHull& hull, const WidthSpace& space, std::size_t facets);
+
 }  // namespace ndhull

@@ -84,6 +84,23 @@ TEST(DescribedJoinLaw, AsManyFacetsAsTheHullHasAreItsOwn) {
   }
 }
 
+TEST(DescribedJoinLaw, FewerFacetsThanTheHullHasAreJoined) {
+  const PointSet set = product(product(points_in(3, 9, 1), points_in(2, 7, 2)), points_in(2, 8, 3));
+  const Hull exact = hull_of(set);
+  double narrower = 0.0;
+  for (std::uint64_t facets = exact.facet_count() - 1; facets > exact.rank + 3; facets -= 2) {
+    SCOPED_TRACE(facets);
+    const Hull hull = with_facets(set, facets);
+    EXPECT_TRUE(is_described(hull));
+    EXPECT_LE(hull.facet_count(), facets);
+    EXPECT_GE(hull.max_facet_width, narrower);
+    narrower = hull.max_facet_width;
+    expect_approximate_laws(hull, set.view());
+    EXPECT_NEAR(hull.area, exact.area, 1e-9 * exact.area);
+  }
+  EXPECT_GT(narrower, 0.01);
+}
+
 // Whoever asks for simplices, as --verify does, gets those of the same hull.
 TEST(DescribedJoinLaw, SimplicesChangeNothing) {
   const PointSet set = product(points_in(3, 8, 5), product(points_in(2, 6, 6), points_in(2, 6, 7)));
