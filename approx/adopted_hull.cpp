@@ -5,7 +5,6 @@
 #include "approx/facets/pulled_simplices.h"
 #include "approx/facets/regrown_simplices.h"
 #include "approx/hull_run.h"
-#include "approx/trade/described_join.h"
 
 namespace ndhull {
 
