@@ -6,16 +6,17 @@
 
 #include "approx/accuracy.h"
 #include "approx/hull.h"
-#include "core/growth/growth.h"
 
 namespace ndhull {
 
 /// Is the exact hull worth growing as well? For widths near rounding, which were missed; and where so many
 /// points share planes that few facets may hold all of them, which coverings by slabs need not find.
 ///
+/// fewest_exact: fewest_exact_facets of `hull`'s complex (approx/facets/exact_facets.h).
+///
 /// Returns   how many simplices it may have to be compared, 0: any number; nothing: it is not worth it. Of
 ///           shared planes, where facets are few, some times those that the approximate hull has.
-std::optional<std::uint64_t> simplices_of_exact(const Hull& hull, const GrowthWork& work,
+std::optional<std::uint64_t> simplices_of_exact(const Hull& hull, double fewest_exact,
                                                 const HullOptions& options, const ResolvedAccuracy& lengths);
 
 /// Is the complete hull `exact` what was asked for rather than `hull`? For a width that both keep, the one of

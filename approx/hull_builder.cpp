@@ -69,6 +69,7 @@ Hull HullBuilder::run(BegunHull* begun) {
       return std::move(hull_);
     }
   }
+  const double fewest_exact = is_exact ? 0.0 : fewest_exact_facets(growth_->work(), growth_->coordinates());
   const Clock::time_point merge_start = Clock::now();
   KnownHighest known = growth_->take_known_highest();
   const std::vector<RowMove> moves = compact(complex());
@@ -86,7 +87,7 @@ Hull HullBuilder::run(BegunHull* begun) {
   make_facets(known);
   seconds(Phase::kMerge) += seconds_since(merge_start);
   if (earlier_.has_tried_exact) return std::move(hull_);
-  if (const auto most = simplices_of_exact(hull_, growth_->work(), options_, lengths)) {
+  if (const auto most = simplices_of_exact(hull_, fewest_exact, options_, lengths)) {
     Hull exact = with(Accuracy(), lengths, *most);
     if (is_exact_better(exact, hull_, accuracy, lengths)) return exact;
   }

@@ -15,8 +15,16 @@ namespace ndhull {
 inline constexpr double kShiftsInPlane = 4.0;
 
 /// Do so many points share planes that rounding has drawn many simplices' planes? A quarter of the vertices
-/// was moved inwards when they were added.
-bool shares_planes(const GrowthWork& work);
+/// was moved inwards when they were added, and an eighth of the ridges are flat. (Of values on a grid nearly
+/// all points lie on some plane of others, and hardly any ridge is flat.)
+///
+/// Shapes  points: point_count x rank, the frame's; so below.
+/// Cost    looks at the ridges of some hundred simplices; so below.
+bool shares_planes(const GrowthWork& work, const double* points);
+
+/// About how many facets coplanar merging would leave at least: k simplices that become one share k - 1 flat
+/// ridges or more. 0 where facets of many simplices are common, of any number.
+double fewest_exact_facets(const GrowthWork& work, const double* points);
 
 /// One flag a point: was it moved inwards when it was added? Empty: none was.
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work);

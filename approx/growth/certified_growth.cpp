@@ -275,13 +275,13 @@ bool CertifiedGrowth::is_late() {
   return true;
 }
 
-void CertifiedGrowth::put_back(std::span<const LocatedPoint> points, double as_high) {
+void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {
   forget_waiting();  // the caller has looked at all
   const double least = std::nextafter(least_height(work_), HUGE_VAL);
   for (const LocatedPoint& point : points) {
     // Not above its simplex by more than rounding: no insertion would see that.
     if (point.gauge <= 2.0 * work_.options.shift) continue;
-    const double height = std::max({least, as_high, height_above(work_, point.simplex.value, point.gauge)});
+    const double height = std::max(least, height_above(work_, point.simplex.value, point.gauge));
     const double known = work_.heights.height(point.point.value);
     if (known >= height) continue;
     // Growth that has paused left it above another simplex, less far.

@@ -69,9 +69,11 @@ class CertifiedGrowth {
   /// Those of left_out() that are outside by more than W and rounding go back; false when there are none.
   bool repair() { return repair(left_out_); }
   /// Puts these points, which are above these simplices, back into outside sets: growth adds them however
-  /// little they are above, and before it pauses if it would not with a point `as_high`. (When the simplex
-  /// that one is above goes, it is as high as it is.)
-  void put_back(std::span<const LocatedPoint> points, double as_high = 0.0);
+  /// little they are above. (When the simplex that one is above goes, it is as high as it is.)
+  void put_back(std::span<const LocatedPoint> points);
+
+  /// After locate_left_out: what growth would go on with when it has paused is left out, until it is put back.
+  void leave_out_others() { forget_outside(work_); }
 
   /// Growth that has paused will not soon go on: its lists and marks are given back.
   void drop_paused() { work_.paused.reset(); }

@@ -37,7 +37,8 @@ constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 30;
 constexpr std::size_t kFewOfWholeHull = 128;
 constexpr double kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
-constexpr std::size_t kPartOfMean = 4;
+/// Where points were shifted all that hold less than the mean do, if it is no less than this.
+constexpr std::size_t kPartOfMean = 4, kLargeOfShifted = 16;
 
 }  // namespace
 
@@ -160,8 +161,9 @@ bool Approximation::keeps_hull(const Covering& covering) const {
 
 /// Of a coarse hull: is it worth its time to grow the exact one before anything else is looked for?
 bool Approximation::may_be_few_exact_facets() {
-  return is_degenerate() && growth_.furthest_height() > 0.0 && !growth_.is_limited() &&
-         !earlier_.has_tried_exact && !growth_.options().limits.has_any();
+  return growth_.furthest_height() > 0.0 && !growth_.is_limited() && !earlier_.has_tried_exact &&
+         !growth_.options().limits.has_any() && is_degenerate() &&
+         fewest_exact_facets(growth_.work(), growth_.coordinates()) <= static_cast<double>(accuracy_.facets);
 }
 
 bool Approximation::has_few_small(std::size_t facets, std::size_t simplices) {
@@ -182,11 +184,12 @@ bool Approximation::is_worth_joining_again(std::size_t facets, std::size_t simpl
          (left_out > kLeftOutMany && has_few_small(facets, simplices));
 }
 
-/// Of very few facets, where growth has left out more points than there are vertices, a quarter is saved in
-/// some milliseconds, and the exact hull takes longer still.
+/// Of very few facets of few simplices, where growth has left out more points than there are vertices, a quarter is
+/// saved in some milliseconds, and the exact hull takes longer still.
 bool Approximation::is_worth_looking_further(std::size_t facets) const {
-  constexpr std::size_t kVeryFew = 40;
-  return is_thorough() || (facets <= kVeryFew && space_->share_of_others() > kLeftOutMany);
+  constexpr std::size_t kVeryFew = 40, kFewSimplices = 8192;
+  return is_thorough() ||
+         (facets <= kVeryFew && live_count() <= kFewSimplices && space_->share_of_others() > kLeftOutMany);
 }
 
 void Approximation::join_neighbours(Covering& covering, double width) const {
@@ -226,7 +229,10 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, Facet
       partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find, limit_of_count);
   if (!facets || !facets->may_join()) return facets;
   const std::size_t simplices = facets->begin.back();
-  std::size_t most = std::max<std::size_t>(1, simplices / (kPartOfMean * facets->count()));
+  const std::size_t mean = simplices / facets->count();
+  // The exact hull of shifted points takes longer, since coplanar facets are looked for: so may this.
+  const bool has_time = above == PointsAbove::kAny && mean >= kLargeOfShifted;
+  std::size_t most = has_time ? mean : std::max<std::size_t>(1, mean / kPartOfMean);
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
   if (is_degenerate() || has_few_small(facets->count(), simplices)) most = simplices;
   join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
@@ -300,7 +306,7 @@ FacetClusters Approximation::run_width() {
     covering = cover_width(slab, std::move(slabs), may_grow ? &known : nullptr);
     if (covering.planes.empty()) return FacetClusters{};
     if (may_grow && !known.missing.empty()) {
-      take_in(known.missing, outside_width, slab);
+      take_in(known.missing);
       continue;
     }
     const TrueWidths widths = true_widths(covering);

@@ -93,7 +93,7 @@ class Approximation {
   bool leaves_out_hardly_any(double outside_width) const;
   double less_outside(double outside_width, int round) const;
   void take_in(double outside_width);
-  void take_in(std::span<const PointId> left_out, double outside_width, double slab);
+  void take_in(std::span<const PointId> left_out);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet
@@ -137,7 +137,7 @@ class Approximation {
     return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
   }
   bool may_be_few_exact_facets();
-  bool is_degenerate() const { return shares_planes(growth_.work()); }
+  bool is_degenerate() const { return shares_planes(growth_.work(), growth_.coordinates()); }
   bool keeps_hull(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
   const PointTree& left_out_tree();
@@ -151,6 +151,7 @@ class Approximation {
   std::vector<LocatedPoint> located(std::span<const PointId> left_out) const;
   void grow_for_width(double outside_width, double slab);
   void grow_in_stages(double outside_width, double slab);
+  bool is_width_without_limits() const;
   bool find_stars(double outside_width, double slab);
   bool take_star_hull(double slab, double rows);
   FacetClusters run_width();

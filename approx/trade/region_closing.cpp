@@ -73,15 +73,15 @@ class RegionCloser {
   }
 
   void look_at(std::uint32_t row, std::span<const double> along, Facing& best) const {
-    if (size_of_[covering_.facet_of[row]] == 1) return;
     const auto plane = complex_.plane(SimplexId{row});
     double product = 0.0, length_sq = 0.0;
     for (std::size_t k = 0; k < rank_; ++k) {
       product += plane[k] * along[k];
       length_sq += plane[k] * plane[k];
     }
+    if (product <= 0.0 || product * product < best.most * best.most * length_sq) return;
     const double facing = product / std::sqrt(length_sq);
-    if (facing > best.most) best = {facing, row};
+    if (facing > best.most && size_of_[covering_.facet_of[row]] != 1) best = {facing, row};
   }
 
   /// [distance] of any point above the plane of a simplex.
@@ -146,15 +146,16 @@ class RegionCloser {
   }
 
   /// The live simplex with these vertices; none: there is none.
-  std::uint32_t row_of(std::span<const PointId> ascending) const {
-    for (std::uint32_t row = 0; row < complex_.row_count; ++row) {
-      if (complex_.state[row] != SimplexState::kLive) continue;
-      const auto vertices = complex_.vertices(SimplexId{row});
-      if (std::ranges::all_of(vertices,
-                              [&](PointId id) { return std::ranges::binary_search(ascending, id); }))
-        return row;
-    }
-    return kNone;
+  std::uint32_t row_of(std::span<const PointId> vertices) {
+    is_wanted_.resize(space_.point_count());
+    for (const PointId id : vertices) is_wanted_[id.value] = 1;
+    const auto is_wanted = [this](PointId id) { return is_wanted_[id.value] != 0; };
+    std::uint32_t row = 0;
+    while (row < complex_.row_count && (complex_.state[row] != SimplexState::kLive ||
+                                        !std::ranges::all_of(complex_.vertices(SimplexId{row}), is_wanted)))
+      ++row;
+    for (const PointId id : vertices) is_wanted_[id.value] = 0;
+    return row < complex_.row_count ? row : kNone;
   }
 
   const SimplicialComplex& complex_;
@@ -165,6 +166,7 @@ class RegionCloser {
   std::size_t rank_;
   std::vector<std::uint32_t> size_of_;
   std::vector<double> normals_;
+  std::vector<std::uint8_t> is_wanted_;
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
   std::size_t taken_ = 0;

@@ -78,19 +78,25 @@ std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::ui
 /// none by more than rounding.
 std::vector<LocatedPoint> Approximation::located(std::span<const PointId> left_out) const {
   const SimplicialComplex& complex = growth_.work().complex;
-  std::vector<LocatedPoint> found;
+  const std::size_t rank = complex.rank, count = left_out.size();
+  std::vector<LocatedPoint> highest;
+  std::vector<double> columns(rank * count), gauges(count);
   for (const PointId point : left_out) {
-    const std::span y(growth_.coordinates() + std::size_t{point.value} * complex.rank, complex.rank);
-    LocatedPoint highest{point, SimplexId{}, 4.0 * growth_.work().options.shift};
-    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-      if (complex.state[row] != SimplexState::kLive) continue;
-      const auto plane = complex.plane(SimplexId{row});
-      const double gauge = std::inner_product(plane.begin(), plane.end(), y.begin(), -1.0);
-      if (gauge > highest.gauge) highest = {point, SimplexId{row}, gauge};
-    }
-    if (highest.simplex.valid()) found.push_back(highest);
+    const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
+    for (std::size_t k = 0; k < rank; ++k) columns[k * count + highest.size()] = y[k];
+    highest.push_back({point, SimplexId{}, 4.0 * growth_.work().options.shift});
   }
-  return found;
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    const auto plane = complex.plane(SimplexId{row});
+    std::ranges::fill(gauges, -1.0);
+    for (std::size_t k = 0; k < rank; ++k)
+      for (std::size_t i = 0; i < count; ++i) gauges[i] += plane[k] * columns[k * count + i];
+    for (std::size_t i = 0; i < count; ++i)
+      if (gauges[i] > highest[i].gauge) highest[i] = {left_out[i], SimplexId{row}, gauges[i]};
+  }
+  std::erase_if(highest, [](const LocatedPoint& point) { return !point.simplex.valid(); });
+  return highest;
 }
 
 /// Remembers, for each facet that is wider than `width`, the point that makes it so, and tells those that are

@@ -81,11 +81,7 @@ bool Approximation::search_outside(double width) {
 
 /// Growth for slabs of this width; then it is known where the points left out are.
 void Approximation::grow_for_width(double outside_width, double slab) {
-  if (lengths_.outside_width > 0.0 || outside_width == 0.0) {
-    growth_.grow_to(outside_width, 0, HUGE_VAL);
-  } else {
-    grow_in_stages(outside_width, slab);
-  }
+  grow_in_stages(outside_width, slab);
   locate_left_out(outside_width);
   for (int round = 0; round < kRounds && outside_width == 0.0 && !growth_.is_limited() && growth_.repair();
        ++round) {
@@ -94,8 +90,12 @@ void Approximation::grow_for_width(double outside_width, double slab) {
   }
 }
 
-/// Where simplices become many, points further outside are left out.
+/// Where simplices become many, points further outside are left out, unless what is left out was asked for.
 void Approximation::grow_in_stages(double outside_width, double slab) {
+  if (lengths_.outside_width > 0.0 || outside_width == 0.0) {
+    growth_.grow_to(outside_width, 0, HUGE_VAL);
+    return;
+  }
   const GrowthWork& work = growth_.work();
   const auto simplices = [&] { return work.complex.row_count - work.free_count; };
   const auto has_paused = [&](std::uint64_t enough, double height) {
@@ -142,30 +142,33 @@ void Approximation::take_in(double outside_width) {
   growth_.put_back(above);
 }
 
-/// Takes in these points, however little they are outside: also where growth for slabs of this width would
-/// pause.
-void Approximation::take_in(std::span<const PointId> left_out, double outside_width, double slab) {
+/// Takes in these points, of those left out, however little they are outside; no other.
+void Approximation::take_in(std::span<const PointId> left_out) {
   for (std::size_t round = 0; round <= left_out.size() && !growth_.is_limited(); ++round) {
     const std::vector<LocatedPoint> above = located(left_out);
     if (above.empty()) return;
-    growth_.put_back(above, slab);
-    grow_for_width(outside_width, slab);
+    growth_.leave_out_others();
+    growth_.put_back(above);
+    growth_.grow_to(0.0, 0, HUGE_VAL);
   }
 }
 
-/// Is it asked for in a way that stars can answer, which have no early end?
-bool Approximation::may_do_without_complex() const {
+/// Is a width asked for that stars could answer, which have no early end?
+bool Approximation::is_width_without_limits() const {
   const HullOptions& options = growth_.options();
-  return !has_too_many_vertices_ && lengths_.width > 0.0 && accuracy_.facets == 0 &&
-         lengths_.outside_width == 0.0 && growth_.frame().rank >= 3 && !options.wants_simplices &&
-         options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+  return lengths_.width > 0.0 && accuracy_.facets == 0 && lengths_.outside_width == 0.0 &&
+         growth_.frame().rank >= 3 && options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+}
+
+bool Approximation::may_do_without_complex() const {
+  return is_width_without_limits() && !has_too_many_vertices_ && !growth_.options().wants_simplices;
 }
 
 /// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
 /// large input.
 bool Approximation::find_stars(double outside_width, double slab) {
   const std::uint64_t most_rows = growth_.most_rows();
-  if (!may_do_without_complex() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
+  if (!is_width_without_limits() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
   const std::uint64_t enough = most_rows == 0
                                    ? kRowsBeforeStars
                                    : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
@@ -177,6 +180,8 @@ bool Approximation::find_stars(double outside_width, double slab) {
     if (is_near && !earlier_.has_run_out) return false;
     if (is_near || rows == enough) break;
   }
+  // Who wants simplices gets those of the hull that others get: growth has paused where theirs does.
+  if (growth_.options().wants_simplices) return false;
   // Heights fall about so fast as simplices become more: balls and gaussian points, somewhat slower than
   // spheres. All points that are left may be vertices; simplices rise about with their square then.
   const GrowthWork& work = growth_.work();
