@@ -15,20 +15,22 @@ bool is_missed(const ResolvedAccuracy& lengths, double max_facet_width) {
 
 }  // namespace
 
-std::optional<std::uint64_t> simplices_of_exact(const Hull& hull, double fewest_exact,
-                                                const HullOptions& options, const ResolvedAccuracy& lengths) {
+std::uint64_t most_exact_facets(const ResolvedAccuracy& lengths, const Accuracy& accuracy,
+                                std::uint64_t facets) {
+  constexpr std::uint64_t kFew = 1024;
+  if (accuracy.is_exact() || accuracy.is_for_volume() || accuracy.merges_neighbours()) return 0;
+  if (accuracy.facets > 0) return accuracy.facets;
+  return lengths.width > 0.0 && facets <= kFew ? facets : 0;
+}
+
+std::optional<std::uint64_t> simplices_of_exact(const Hull& hull, bool may_be_few, const HullOptions& options,
+                                                const ResolvedAccuracy& lengths) {
   constexpr std::uint64_t kTimesMore = 4, kSmall = 100'000;
-  constexpr std::size_t kFew = 1024;
   constexpr double kRounding = 4.0;
   const Accuracy& accuracy = options.accuracy;
   if (hull.status != HullStatus::kComplete || accuracy.is_exact() || accuracy.is_for_volume()) return {};
   if (is_missed(lengths, hull.max_facet_width)) return options.limits.max_facets;
-  const bool is_target = accuracy.facets > 0 || lengths.width > 0.0;
-  if (!is_target || accuracy.merges_neighbours()) return {};
-  if (options.limits.max_memory_bytes > 0 || options.limits.max_facets > 0) return {};
-  if (accuracy.facets == 0 && hull.facet_count() > kFew) return {};
-  const std::uint64_t most = accuracy.facets > 0 ? accuracy.facets : hull.facet_count();
-  if (fewest_exact > static_cast<double>(most)) return {};
+  if (!may_be_few || options.limits.max_memory_bytes > 0 || options.limits.max_facets > 0) return {};
   // It is the best there can be already.
   if (hull.facet_count() == hull.rank + 1) return {};
   if (accuracy.facets > 0 && hull.max_facet_width <= kRounding * hull.roundoff) return {};

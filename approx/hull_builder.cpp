@@ -69,7 +69,11 @@ Hull HullBuilder::run(BegunHull* begun) {
       return std::move(hull_);
     }
   }
-  const double fewest_exact = is_exact ? 0.0 : fewest_exact_facets(growth_->work(), growth_->coordinates());
+  // While coordinates and planes are those of growth.
+  const std::size_t simplices = complex().row_count - growth_->work().free_count;
+  const std::uint64_t most_exact = most_exact_facets(lengths, accuracy, clusters_.facets_of(simplices));
+  const bool may_be_few =
+      most_exact > 0 && may_be_few_facets(growth_->work(), growth_->coordinates(), most_exact);
   const Clock::time_point merge_start = Clock::now();
   KnownHighest known = growth_->take_known_highest();
   const std::vector<RowMove> moves = compact(complex());
@@ -87,7 +91,7 @@ Hull HullBuilder::run(BegunHull* begun) {
   make_facets(known);
   seconds(Phase::kMerge) += seconds_since(merge_start);
   if (earlier_.has_tried_exact) return std::move(hull_);
-  if (const auto most = simplices_of_exact(hull_, fewest_exact, options_, lengths)) {
+  if (const auto most = simplices_of_exact(hull_, may_be_few, options_, lengths)) {
     Hull exact = with(Accuracy(), lengths, *most);
     if (is_exact_better(exact, hull_, accuracy, lengths)) return exact;
   }

@@ -29,43 +29,91 @@ void turn_outwards(std::span<double> determinants) {
   for (double& determinant : determinants) determinant = -determinant;
 }
 
-/// The part of the ridges that are flat, of some simplices all over the rows; 0 where less than a quarter of the
-/// vertices was shifted. Planes are those of growth, which shifts have turned, of thin simplices by many shifts:
-/// what is taken for flat is therefore more than that.
-double share_of_flat_ridges(const GrowthWork& work, const double* points) {
-  if (4 * work.shifted_points.size() < work.counters.insertions) return 0.0;
-  constexpr std::size_t kSimplices = 256;
-  constexpr double kShifts = 1000.0;
-  const SimplicialComplex& complex = work.complex;
-  const std::size_t step = std::max<std::size_t>(1, complex.row_count / kSimplices);
-  std::size_t ridges = 0, flat = 0;
-  for (std::size_t row = 0; row < complex.row_count; row += step) {
-    if (complex.state[row] != SimplexState::kLive) continue;
-    const SimplexId simplex{static_cast<std::uint32_t>(row)};
-    const auto plane = complex.plane(simplex);
-    for (const SimplexId neighbour : complex.neighbours(simplex)) {
-      const PointId opposite = vertex_opposite(complex, neighbour.value, simplex.value);
-      const double* point = points + std::size_t{opposite.value} * complex.rank;
-      const double gauge = std::inner_product(plane.begin(), plane.end(), point, -1.0);
-      ++ridges;
-      flat += std::abs(gauge) <= kShifts * work.options.shift ? 1 : 0;
-    }
-  }
-  return ridges == 0 ? 0.0 : static_cast<double>(flat) / static_cast<double>(ridges);
+/// A quarter of the vertices was shifted.
+bool has_many_shifted(const GrowthWork& work) {
+  return 4 * work.shifted_points.size() >= work.counters.insertions;
 }
+
+/// Simplices all over the rows, and which of their neighbours are in a plane with them. Planes are those of growth,
+/// which shifts have turned, of thin simplices by many shifts: what is taken for flat is therefore more than that.
+class FlatSample {
+ public:
+  FlatSample(const GrowthWork& work, const double* points)
+      : complex_(work.complex), points_(points), tolerance_(kShifts * work.options.shift) {
+    const std::size_t step = complex_.row_count / kSimplices + 1;
+    for (std::size_t row = 0; row < complex_.row_count; row += step)
+      if (complex_.state[row] == SimplexState::kLive) rows_.push_back(static_cast<std::uint32_t>(row));
+  }
+
+  /// The part of their ridges that are flat.
+  double share_of_flat_ridges() const {
+    std::size_t flat = 0;
+    for (const std::uint32_t row : rows_)
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{row}))
+        if (is_in_plane(row, row, neighbour.value)) ++flat;
+    return static_cast<double>(flat) / static_cast<double>(rows_.size() * complex_.rank);
+  }
+
+  /// Is the mean of one over the size of a simplex' facet clearly above this? Larger facets count for nothing.
+  bool has_mean_above(double bound) {
+    constexpr std::size_t kLarge = 64;
+    constexpr double kErrors = 3.0;
+    seen_by_.assign(complex_.row_count, FacetId::kNone);
+    double sum = 0.0, squares = 0.0;
+    for (const std::uint32_t row : rows_) {
+      const std::size_t size = facet_size(row, kLarge);
+      const double part = size < kLarge ? 1.0 / static_cast<double>(size) : 0.0;
+      sum += part;
+      squares += part * part;
+    }
+    const auto count = static_cast<double>(rows_.size());
+    const double mean = sum / count, variance = std::max(0.0, squares / count - mean * mean);
+    return mean - kErrors * std::sqrt(variance / count) > bound;
+  }
+
+ private:
+  static constexpr std::size_t kSimplices = 256;
+  static constexpr double kShifts = 1000.0;
+
+  /// Is the vertex of `neighbour` that is opposite `simplex` in the plane of `seed`?
+  bool is_in_plane(std::uint32_t seed, std::uint32_t simplex, std::uint32_t neighbour) const {
+    const auto plane = complex_.plane(SimplexId{seed});
+    const PointId opposite = vertex_opposite(complex_, neighbour, simplex);
+    const double* point = points_ + std::size_t{opposite.value} * complex_.rank;
+    return std::abs(std::inner_product(plane.begin(), plane.end(), point, -1.0)) <= tolerance_;
+  }
+
+  /// Simplices that can be reached from this in its plane, `most` or about so many.
+  std::size_t facet_size(std::uint32_t seed, std::size_t most) {
+    facet_.assign(1, seed);
+    seen_by_[seed] = seed;
+    for (std::size_t i = 0; i < facet_.size() && facet_.size() < most; ++i) {
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{facet_[i]})) {
+        if (seen_by_[neighbour.value] == seed || !is_in_plane(seed, facet_[i], neighbour.value)) continue;
+        seen_by_[neighbour.value] = seed;
+        facet_.push_back(neighbour.value);
+      }
+    }
+    return facet_.size();
+  }
+
+  const SimplicialComplex& complex_;
+  const double* points_;
+  double tolerance_;
+  std::vector<std::uint32_t> rows_, facet_, seen_by_;
+};
 
 }  // namespace
 
 bool shares_planes(const GrowthWork& work, const double* points) {
   constexpr double kMany = 1.0 / 8.0;
-  return share_of_flat_ridges(work, points) >= kMany;
+  return has_many_shifted(work) && FlatSample(work, points).share_of_flat_ridges() >= kMany;
 }
 
-double fewest_exact_facets(const GrowthWork& work, const double* points) {
-  const auto simplices = static_cast<double>(work.complex.row_count - work.free_count);
-  // Each ridge is that of two simplices.
-  const double flat = share_of_flat_ridges(work, points) * static_cast<double>(work.rank) / 2.0;
-  return simplices * std::max(0.0, 1.0 - flat);
+bool may_be_few_facets(const GrowthWork& work, const double* points, std::uint64_t most) {
+  const std::size_t simplices = work.complex.row_count - work.free_count;
+  if (!has_many_shifted(work) || simplices <= most) return simplices <= most;
+  return !FlatSample(work, points).has_mean_above(static_cast<double>(most) / static_cast<double>(simplices));
 }
 
 std::vector<std::uint8_t> find_shifted(const GrowthWork& work) {

@@ -218,6 +218,13 @@ std::vector<double> FacetClusters::planes_of(const SimplicialComplex& complex) c
   return all;
 }
 
+std::size_t FacetClusters::facets_of(std::size_t simplices_in_all) const {
+  if (are_listed()) return begin.front() + count;
+  const auto alone = std::count(cluster_of.begin(), cluster_of.end(), kNone);
+  const std::size_t merged = cluster_of.size() - static_cast<std::size_t>(alone);
+  return count + simplices_in_all - merged;
+}
+
 void FacetClusters::number_rows(std::size_t row_count) {
   cluster_of.assign(row_count, kNone);
   for (std::uint32_t cluster = 0; cluster < count; ++cluster)

@@ -33,6 +33,8 @@ struct FacetClusters {
                                  : planes.data() + std::size_t{own} * complex.rank;
   }
   bool are_listed() const { return !begin.empty(); }
+  /// All facets of a complex of so many simplices.
+  std::size_t facets_of(std::size_t simplices_in_all) const;
   /// Instead of lists.
   void number_rows(std::size_t row_count);
   /// All planes, count x rank.

@@ -9,6 +9,7 @@
 #include "approx/slabs/segment_merge.h"
 #include "approx/slabs/slab_partition.h"
 #include "approx/trade/cluster_merge.h"
+#include "approx/trade/far_above.h"
 #include "approx/trade/region_closing.h"
 #include "core/ids.h"
 #include "core/machine/stopwatch.h"
@@ -163,7 +164,7 @@ bool Approximation::keeps_hull(const Covering& covering) const {
 bool Approximation::may_be_few_exact_facets() {
   return growth_.furthest_height() > 0.0 && !growth_.is_limited() && !earlier_.has_tried_exact &&
          !growth_.options().limits.has_any() && is_degenerate() &&
-         fewest_exact_facets(growth_.work(), growth_.coordinates()) <= static_cast<double>(accuracy_.facets);
+         may_be_few_facets(growth_.work(), growth_.coordinates(), accuracy_.facets);
 }
 
 bool Approximation::has_few_small(std::size_t facets, std::size_t simplices) {
@@ -295,6 +296,12 @@ FacetClusters Approximation::run_width() {
       take_in(outside_width);
       continue;
     }
+    if (may_grow) {
+      const std::vector<LocatedPoint> far =
+          find_far_above(growth_.work(), growth_.coordinates(), *space_, growth_.left_out(), target);
+      take_in(far, outside_width, round);
+      if (!far.empty()) continue;
+    }
     std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
     if (slabs && is_final(*slabs) && !is_thorough()) {
       hull_.chosen.outside_width = outside_width;
@@ -315,11 +322,7 @@ FacetClusters Approximation::run_width() {
       look_for_fewer(target, covering);
     if (widest <= target || !may_grow || growth_.is_late()) break;
     const Offenders offenders = add_offenders(covering, widths, target);
-    growth_.put_back(offenders.above_simplices);
-    if (!offenders.above_simplices.empty()) {
-      outside_width = less_outside(outside_width, round);
-      take_in(outside_width);
-    }
+    take_in(offenders.above_simplices, outside_width, round);
     if (offenders.widest_slab > target)
       slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }

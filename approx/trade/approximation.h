@@ -94,6 +94,7 @@ class Approximation {
   double less_outside(double outside_width, int round) const;
   void take_in(double outside_width);
   void take_in(std::span<const PointId> left_out);
+  void take_in(std::span<const LocatedPoint> far, double& outside_width, int round);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet

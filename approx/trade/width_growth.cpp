@@ -142,6 +142,15 @@ void Approximation::take_in(double outside_width) {
   growth_.put_back(above);
 }
 
+/// Takes in these points, which are too far above simplices, and all that are further outside than others may be
+/// then.
+void Approximation::take_in(std::span<const LocatedPoint> far, double& outside_width, int round) {
+  if (far.empty()) return;
+  growth_.put_back(far);
+  outside_width = less_outside(outside_width, round);
+  take_in(outside_width);
+}
+
 /// Takes in these points, of those left out, however little they are outside; no other.
 void Approximation::take_in(std::span<const PointId> left_out) {
   for (std::size_t round = 0; round <= left_out.size() && !growth_.is_limited(); ++round) {
