@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "tests/approximate/approximate_laws.h"
 #include "tests/hull/hull_support.h"
 #include "tests/prepared_growth.h"
 
