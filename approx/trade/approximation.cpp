@@ -275,10 +275,22 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
   return covering;
 }
 
+/// Points that would make a covering vain, where that takes longer than taking them in. Not many: of a thin hull
+/// hundreds can be far above the simplices of its rim, which slabs hold all the same.
+std::vector<LocatedPoint> Approximation::few_far_above(double width) const {
+  constexpr std::size_t kLargeHull = 50'000, kFew = 8;
+  if (!has_left_out_ || live_count() < kLargeHull) return {};
+  std::vector<LocatedPoint> far =
+      find_far_above(growth_.work(), growth_.coordinates(), *space_, growth_.left_out(), width);
+  if (far.size() > std::max(kFew, growth_.left_out().size() / kFew)) return {};
+  return far;
+}
+
 FacetClusters Approximation::run_width() {
   const double target = lengths_.width * (1.0 - 1e-9);
   double outside_width =
       lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
+  constexpr int kRoundsOfFar = 3;
   double slab = target;
   Covering covering;
   HullFacets known;
@@ -296,11 +308,11 @@ FacetClusters Approximation::run_width() {
       take_in(outside_width);
       continue;
     }
-    if (may_grow) {
-      const std::vector<LocatedPoint> far =
-          find_far_above(growth_.work(), growth_.coordinates(), *space_, growth_.left_out(), target);
+    const std::vector<LocatedPoint> far =
+        may_grow && round < kRoundsOfFar ? few_far_above(target) : std::vector<LocatedPoint>();
+    if (!far.empty()) {
       take_in(far, outside_width, round);
-      if (!far.empty()) continue;
+      continue;
     }
     std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
     if (slabs && is_final(*slabs) && !is_thorough()) {

@@ -150,6 +150,7 @@ class Approximation {
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices);
   std::vector<LocatedPoint> located(std::span<const PointId> left_out) const;
+  std::vector<LocatedPoint> few_far_above(double width) const;
   void grow_for_width(double outside_width, double slab);
   void grow_in_stages(double outside_width, double slab);
   bool is_width_without_limits() const;
