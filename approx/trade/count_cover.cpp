@@ -76,16 +76,6 @@ constexpr std::uint64_t kFewJoined = 128;
 
 }  // namespace
 
-/// Remembers the narrowest over all points. Returns how wide it is.
-double Approximation::consider(const Covering& covering, double slab, CountSearch& search) {
-  const double width = true_widths(covering).widest();
-  if (search.has_any() && width >= search.width) return width;
-  search.narrowest = covering;
-  search.width = width;
-  search.slab = slab;
-  return width;
-}
-
 /// Facets whose planes bound a region, and fewer where two fit into one slab.
 void Approximation::close_and_join(Covering& covering, double width, bool joins) const {
   close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), nullptr, covering);
@@ -115,7 +105,8 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
 
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
-/// the (rank-1)/2-th where the hull is round; what it was last is remembered.
+/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where it
+/// falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width,
                                     double slack, CountSearch& search) {
   std::optional<SlabCover> overlapping;
@@ -154,9 +145,10 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
     }
     if (few && many) {
       const double between = few->log_width - many->log_width;
-      if (between < 0.004) break;
       const double fewer = std::max(1e-9, many->log_count - few->log_count);
-      const double part = (many->log_count - wanted + 0.5 * slack) / fewer;
+      const bool is_cliff = fewer > std::max(1.0, 3.0 * power_of_ball * between);
+      if (between < (is_cliff ? 0.01 : 0.004)) break;
+      const double part = is_cliff ? 0.5 : (many->log_count - wanted + 0.5 * slack) / fewer;
       log_width = many->log_width + std::clamp(part, 0.08, 0.92) * between;
     } else if (few) {
       const double short_of = wanted - few->log_count;
