@@ -9,8 +9,8 @@
 
 namespace ndhull {
 
-/// With more facets than these the exact hull is no better than an approximate one that has so many; 0: it is not
-/// compared for that.
+/// With more facets than these the exact hull is no better than an approximate one that has so many; 0: it is
+/// not compared for that.
 std::uint64_t most_exact_facets(const ResolvedAccuracy& lengths, const Accuracy& accuracy,
                                 std::uint64_t facets);
 

@@ -34,8 +34,9 @@ bool has_many_shifted(const GrowthWork& work) {
   return 4 * work.shifted_points.size() >= work.counters.insertions;
 }
 
-/// Simplices all over the rows, and which of their neighbours are in a plane with them. Planes are those of growth,
-/// which shifts have turned, of thin simplices by many shifts: what is taken for flat is therefore more than that.
+/// Simplices all over the rows, and which of their neighbours are in a plane with them. Planes are those of
+/// growth, which shifts have turned, of thin simplices by many shifts: what is taken for flat is therefore
+/// more than that.
 class FlatSample {
  public:
   FlatSample(const GrowthWork& work, const double* points)
@@ -54,7 +55,8 @@ class FlatSample {
     return static_cast<double>(flat) / static_cast<double>(rows_.size() * complex_.rank);
   }
 
-  /// Is the mean of one over the size of a simplex' facet clearly above this? Larger facets count for nothing.
+  /// Is the mean of one over the size of a simplex' facet clearly above this? Larger facets count for
+  /// nothing.
   bool has_mean_above(double bound) {
     constexpr std::size_t kLarge = 64;
     constexpr double kErrors = 3.0;
@@ -149,10 +151,7 @@ std::uint64_t count_exact_facets(const GrowthWork& work, const double* points) {
   solve_outwards(complex, points, is_shifted, determinants);
   const FacetClusters clusters =
       merge_coplanar(complex, points, is_shifted, determinants, kShiftsInPlane * work.options.shift);
-  const auto is_alone = [](std::uint32_t cluster) { return cluster == FacetId::kNone; };
-  // Without a ridge in a plane there is no table.
-  if (clusters.cluster_of.empty()) return complex.row_count;
-  return clusters.count + static_cast<std::uint64_t>(std::ranges::count_if(clusters.cluster_of, is_alone));
+  return clusters.facets_of(complex.row_count);
 }
 
 }  // namespace ndhull

@@ -22,8 +22,8 @@ inline constexpr double kShiftsInPlane = 4.0;
 /// Cost    looks at the ridges of some hundred simplices.
 bool shares_planes(const GrowthWork& work, const double* points);
 
-/// May coplanar merging leave no more than `most` facets? A sample tells: the number of facets is the sum of one
-/// over the size of its facet over all simplices.
+/// May coplanar merging leave no more than `most` facets? A sample tells: the number of facets is the sum of
+/// one over the size of its facet over all simplices.
 ///
 /// Returns   false  where the mean of the sample is far above that, by three standard errors.
 /// Cost      looks at 16,384 simplices at most: facets of 64 and more count for nothing.

@@ -72,7 +72,8 @@ class CertifiedGrowth {
   /// little they are above. (When the simplex that one is above goes, it is as high as it is.)
   void put_back(std::span<const LocatedPoint> points);
 
-  /// After locate_left_out: what growth would go on with when it has paused is left out, until it is put back.
+  /// After locate_left_out: what growth would go on with when it has paused is left out, until it is put
+  /// back.
   void leave_out_others() { forget_outside(work_); }
 
   /// Growth that has paused will not soon go on: its lists and marks are given back.

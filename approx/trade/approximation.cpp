@@ -185,8 +185,8 @@ bool Approximation::is_worth_joining_again(std::size_t facets, std::size_t simpl
          (left_out > kLeftOutMany && has_few_small(facets, simplices));
 }
 
-/// Of very few facets of few simplices, where growth has left out more points than there are vertices, a quarter is
-/// saved in some milliseconds, and the exact hull takes longer still.
+/// Of very few facets of few simplices, where growth has left out more points than there are vertices, a
+/// quarter is saved in some milliseconds, and the exact hull takes longer still.
 bool Approximation::is_worth_looking_further(std::size_t facets) const {
   constexpr std::size_t kVeryFew = 40, kFewSimplices = 8192;
   return is_thorough() ||
@@ -275,8 +275,8 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
   return covering;
 }
 
-/// Points that would make a covering vain, where that takes longer than taking them in. Not many: of a thin hull
-/// hundreds can be far above the simplices of its rim, which slabs hold all the same.
+/// Points that would make a covering vain, where that takes longer than taking them in. Not many: of a thin
+/// hull hundreds can be far above the simplices of its rim, which slabs hold all the same.
 std::vector<LocatedPoint> Approximation::few_far_above(double width) const {
   constexpr std::size_t kLargeHull = 50'000, kFew = 8;
   if (!has_left_out_ || live_count() < kLargeHull) return {};

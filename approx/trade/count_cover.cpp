@@ -105,8 +105,8 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
 
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
-/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where it
-/// falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved.
+/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where
+/// it falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width,
                                     double slack, CountSearch& search) {
   std::optional<SlabCover> overlapping;

@@ -142,8 +142,8 @@ void Approximation::take_in(double outside_width) {
   growth_.put_back(above);
 }
 
-/// Takes in these points, which are too far above simplices, and all that are further outside than others may be
-/// then.
+/// Takes in these points, which are too far above simplices, and all that are further outside than others may
+/// be then.
 void Approximation::take_in(std::span<const LocatedPoint> far, double& outside_width, int round) {
   if (far.empty()) return;
   growth_.put_back(far);

@@ -55,8 +55,8 @@ TEST(ExactFacets, ManyAreForeseenOfRatings) {
   EXPECT_FALSE(grown.may_be(grown.exact() / 3));
 }
 
-// Nearly all points of a grid lie on the plane of some simplex when they are added, and are shifted; few ridges of
-// the hull are flat for all that.
+// Nearly all points of a grid lie on the plane of some simplex when they are added, and are shifted; few
+// ridges of the hull are flat for all that.
 TEST(ExactFacets, ManyAreForeseenOnAGrid) {
   for (const PointSet& set :
        {gridded({PointFamily::kCube, 1000, 6}, 0.07), gridded({PointFamily::kCube, 500, 7}, 0.2)}) {
