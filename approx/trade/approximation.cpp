@@ -295,6 +295,7 @@ FacetClusters Approximation::run_width() {
   Covering covering;
   HullFacets known;
   known.width = target;
+  choose_order(outside_width);
   if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
     const bool is_last = round == kWidthRounds;

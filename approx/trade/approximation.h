@@ -153,6 +153,8 @@ class Approximation {
   std::vector<LocatedPoint> few_far_above(double width) const;
   void grow_for_width(double outside_width, double slab);
   void grow_in_stages(double outside_width, double slab);
+  void choose_order(double outside_width);
+  bool will_take_in_all(double outside_width) const;
   bool is_width_without_limits() const;
   bool find_stars(double outside_width, double slab);
   bool take_star_hull(double slab, double rows);

@@ -23,6 +23,8 @@ constexpr double kAloneShare = 0.995;
 /// Rounds of points that go back before the best so far is taken: those that are where they were not located,
 /// and those that a search finds, few at a time.
 constexpr int kRounds = 24, kSearchRounds = 96;
+/// Simplices at which growth may go on by gauges: first, and, doubled, at most.
+constexpr std::uint64_t kRowsBeforeGauges = 2048, kMostRowsBeforeGauges = 8192;
 /// Simplices from which on growth is asked whether the hull is found without them.
 constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 18;
 /// [bytes] A complex may be so large, or so many times the input, of inputs of this size and more. Below, the
@@ -82,12 +84,36 @@ bool Approximation::search_outside(double width) {
 /// Growth for slabs of this width; then it is known where the points left out are.
 void Approximation::grow_for_width(double outside_width, double slab) {
   grow_in_stages(outside_width, slab);
+  growth_.work().options.by_gauge = false;
   locate_left_out(outside_width);
   for (int round = 0; round < kRounds && outside_width == 0.0 && !growth_.is_limited() && growth_.repair();
        ++round) {
     growth_.grow_to(outside_width, 0, HUGE_VAL);
     locate_left_out(outside_width);
   }
+}
+
+/// Grows some simplices, and sees whether all points will be vertices whatever their order.
+void Approximation::choose_order(double outside_width) {
+  if (!is_width_without_limits() || growth_.options().limits.has_any()) return;
+  GrowthOptions& options = growth_.work().options;
+  for (std::uint64_t rows = kRowsBeforeGauges; rows <= kMostRowsBeforeGauges && !options.by_gauge; rows *= 2) {
+    if (growth_.grow_to(outside_width, rows, HUGE_VAL) || growth_.is_limited()) return;
+    options.by_gauge = will_take_in_all(outside_width);
+  }
+}
+
+/// Hardly any point was left out so far, and those still outside are further than W by so much that hardly
+/// any will be.
+bool Approximation::will_take_in_all(double outside_width) const {
+  constexpr double kClear = 1.5;
+  constexpr std::size_t kHardlyAny = 256;  // one of so many
+  const GrowthWork& work = growth_.work();
+  const std::size_t known = work.most_vertices() + work.points_outside;
+  if (known + work.point_count / kHardlyAny < work.point_count) return false;
+  std::vector<std::uint32_t> far;
+  work.heights.list_above(kClear * outside_width, far);
+  return far.size() == work.points_outside;
 }
 
 /// Where simplices become many, points further outside are left out, unless what is left out was asked for.

@@ -105,7 +105,7 @@ struct FirstMet;
 /// Where an outside point goes; row kNoRow: it is inside.
 struct NewPlace {
   std::uint32_t row;
-  double height;
+  double height, gauge;
 };
 
 struct Turns;
@@ -218,9 +218,10 @@ class Grower {
   bool cone_is_connected();
   template <bool kInRegion>
   std::uint32_t locate(const double* y, std::uint32_t row, double& gauge);
-  void put_outside(std::uint32_t id, std::uint32_t row, double height);
+  void put_outside(std::uint32_t id, const NewPlace& place);
   void take_outside(std::uint32_t id);
 
+  void list_gauges();
   bool is_to_pause(double furthest) const;
   bool has_made_enough() const;
   bool may_grow_in_regions();
@@ -266,6 +267,7 @@ class Grower {
   std::vector<std::vector<std::uint32_t>> emptied_;  // freed simplices that had points outside, a list a part
   std::vector<std::uint32_t> moved_;                 // points whose simplices are gone
   std::vector<NewPlace> new_places_;
+  OutsideHeights gauges_;  // by_gauge: of the points in outside sets
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
   bool is_cut_ = false;                       // the last search ended at the region's border
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
@@ -355,9 +357,9 @@ bool Grower<D>::has_made_enough() const {
 template <std::size_t D>
 GrowthStop Grower<D>::run() {
   std::uint64_t polled_at = 0;
+  if (work_.options.by_gauge) list_gauges();
   for (;;) {
     const OutsideHeights::Furthest furthest = work_.heights.furthest();
-    const std::uint32_t row = furthest.row;
     if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;
     if (is_to_pause(furthest.height)) {
       work_.options.pause_rows = 0;
@@ -373,6 +375,7 @@ GrowthStop Grower<D>::run() {
       polled_at = books_.counters.made() + 4096;
     }
     if (may_grow_in_regions() && grow_in_regions(furthest.height)) continue;
+    const std::uint32_t row = work_.options.by_gauge ? gauges_.furthest().row : furthest.row;
     const std::uint32_t apex_id = head_[row] - 1;
     switch (insert_timed(apex_id, row)) {
       case Outcome::kAdded: break;
@@ -381,6 +384,7 @@ GrowthStop Grower<D>::run() {
       case Outcome::kRejected:  // certify will measure what it costs
         ++books_.counters.set_aside;
         take_from_outside(work_, apex_id);
+        if (work_.options.by_gauge) gauges_.remove(apex_id);
         break;
     }
   }

@@ -48,6 +48,9 @@ struct GrowthOptions {
   /// Points far apart may be added side by side where insertions have become small: the furthest of all is
   /// then not always next. Only without limits: an early end should have the furthest points.
   bool in_regions = false;
+  /// The point whose gauge is largest comes next, however far it is: that makes fewer simplices on the way,
+  /// of elongated hulls most. Only without limits, and where no point is about to be left out.
+  bool by_gauge = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
@@ -134,8 +137,8 @@ std::size_t most_rows(std::size_t rank);
 /// Moves the tables of the complex and the free rows to where there is room for `rows`, at most `most_rows`.
 void make_room_for(GrowthWork& work, std::size_t rows);
 
-/// Adds outside points, the furthest of all first (but see in_regions), until none are left or a limit is
-/// hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
+/// Adds outside points, the furthest of all first (but see in_regions and by_gauge), until none are left or
+/// a limit is hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
 /// height are left out then: no set has any.
 GrowthStop grow(GrowthWork& work);
 

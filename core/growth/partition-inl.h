@@ -92,6 +92,17 @@ void Grower<D>::partition(std::uint32_t apex) {
   place_moved();
 }
 
+template <std::size_t D>
+void Grower<D>::list_gauges() {
+  std::vector<std::uint32_t> outside;
+  work_.heights.list_above(0.0, outside);
+  gauges_.reset(work_.point_count);
+  for (const std::uint32_t id : outside) {
+    const std::uint32_t row = work_.heights.row(id);
+    gauges_.put(id, row, gauge_above<D>(plane(row), point(id)));
+  }
+}
+
 // Each point starts where the one before it ended; each block starts afresh.
 template <std::size_t D>
 void Grower<D>::place_moved() {
@@ -109,7 +120,7 @@ void Grower<D>::place_moved() {
       if (std::isnan(gauge)) region_->halted.push_back({moved_[i], found});
       if (gauge <= 2.0 * work_.options.shift) continue;
       const double height = height_above(work_, found, gauge);
-      if (height > least) new_places_[i] = {found, height};
+      if (height > least) new_places_[i] = {found, height, gauge};
     }
   };
   if (moved_.size() > kPointsInBlock && (team_ || (moved_.size() >= kManyPoints && has_team()))) {
@@ -120,7 +131,7 @@ void Grower<D>::place_moved() {
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     if (new_places_[i].row != kNoRow) {
-      put_outside(moved_[i], new_places_[i].row, new_places_[i].height);
+      put_outside(moved_[i], new_places_[i]);
     } else {
       take_outside(moved_[i]);
     }

@@ -41,16 +41,18 @@ HWY_INLINE bool Grower<D>::is_in_region(const double* record) const {
 }
 
 template <std::size_t D>
-void Grower<D>::put_outside(std::uint32_t id, std::uint32_t row, double height) {
-  if (region_ == nullptr) return push_outside(work_, id, row, height);
-  work_.heights.put_apart(id, row, height);
-  link_outside(work_, id, row, height);
+void Grower<D>::put_outside(std::uint32_t id, const NewPlace& place) {
+  if (work_.options.by_gauge) gauges_.put(id, place.row, place.gauge);
+  if (region_ == nullptr) return push_outside(work_, id, place.row, place.height);
+  work_.heights.put_apart(id, place.row, place.height);
+  link_outside(work_, id, place.row, place.height);
   region_->written.push_back(id);
   ++region_->points_outside;
 }
 
 template <std::size_t D>
 void Grower<D>::take_outside(std::uint32_t id) {
+  if (work_.options.by_gauge) gauges_.remove(id);
   if (region_ == nullptr) return work_.heights.remove(id);
   work_.heights.put_apart(id, 0, OutsideHeights::kNotOutside);
   region_->written.push_back(id);
