@@ -49,7 +49,8 @@ struct GrowthOptions {
   /// then not always next. Only without limits: an early end should have the furthest points.
   bool in_regions = false;
   /// The point whose gauge is largest comes next, however far it is: that makes fewer simplices on the way,
-  /// of elongated hulls most. Only without limits, and where no point is about to be left out.
+  /// of elongated hulls most. Only without limits, and where no point is about to be left out. May be changed
+  /// between calls of `grow`.
   bool by_gauge = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit

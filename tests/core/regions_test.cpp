@@ -3,19 +3,18 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <set>
 #include <vector>
 
 #include "core/complex/complex_check.h"
 #include "core/growth/growth.h"
 #include "tests/prepared_growth.h"
+#include "tests/simplex_sets.h"
 #include "tools/points/rbox.h"
 
 namespace ndhull {
 namespace {
-
-using Simplices = std::set<std::vector<std::uint32_t>>;
 
 struct Grown {
   explicit Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0) {
@@ -33,17 +32,6 @@ struct Grown {
     });
   }
   std::size_t live_rows() const { return work.complex.row_count - work.free_count; }
-  Simplices simplices() const {
-    Simplices found;
-    for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {
-      if (work.complex.state[row] != SimplexState::kLive) continue;
-      std::vector<std::uint32_t> ids;
-      for (const PointId id : work.complex.vertices(SimplexId{row})) ids.push_back(id.value);
-      std::sort(ids.begin(), ids.end());
-      found.insert(ids);
-    }
-    return found;
-  }
 
   std::vector<double> coordinates;
   GrowthWork work;
@@ -66,7 +54,7 @@ TEST_P(GrowthInRegions, MakesTheSimplicesOfGrowthByOne) {
   const ComplexCheck check = check_complex(parted.work.complex);
   EXPECT_TRUE(check.sound()) << check.first_problem;
   EXPECT_EQ(check.simplices, parted.live_rows());
-  EXPECT_EQ(parted.simplices(), alone.simplices());
+  EXPECT_EQ(simplices_of(parted.work.complex), simplices_of(alone.work.complex));
   // Points that are added too early make simplices that do not stay.
   EXPECT_LE(parted.work.counters.created, alone.work.counters.created / 20 * 21);
 }
@@ -96,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(Sets, GrowthInRegions,
 TEST(GrowthInRegionsOfOtherData, IsAHullWhereItPauses) {
   const Grown parted(rbox("4000 s D5 t5"), true, 2, 9000);
   EXPECT_TRUE(check_complex(parted.work.complex).sound());
-  EXPECT_EQ(parted.simplices(), Grown(rbox("4000 s D5 t5"), false, 1).simplices());
+  EXPECT_EQ(simplices_of(parted.work.complex),
+            simplices_of(Grown(rbox("4000 s D5 t5"), false, 1).work.complex));
 }
 
 // Most points on an edge of the hull have gauges near 0: those are added one after the other.
