@@ -278,11 +278,11 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
 /// Points that would make a covering vain, where that takes longer than taking them in. Not many: of a thin
 /// hull hundreds can be far above the simplices of its rim, which slabs hold all the same.
 std::vector<LocatedPoint> Approximation::few_far_above(double width) const {
-  constexpr std::size_t kLargeHull = 50'000, kFew = 8;
+  constexpr std::size_t kLargeHull = 50'000, kFew = 8, kPart = 4;
   if (!has_left_out_ || live_count() < kLargeHull) return {};
   std::vector<LocatedPoint> far =
       find_far_above(growth_.work(), growth_.coordinates(), *space_, growth_.left_out(), width);
-  if (far.size() > std::max(kFew, growth_.left_out().size() / kFew)) return {};
+  if (far.size() > std::max(kFew, growth_.left_out().size() / kPart)) return {};
   return far;
 }
 

@@ -9,20 +9,23 @@
 
 namespace ndhull {
 
-/// Points that are further above some simplex than a facet may be wide: that simplex could not be a facet
-/// alone, and which simplices will be is known only when all others are covered, in vain then.
+/// Points that are further above some simplex than a facet may be wide, where no plane of a simplex beside
+/// holds it: it would be a facet alone, and too wide, and which simplices will be is known only when all
+/// others are covered, in vain then.
 ///
-/// Method   The gauge of a point is linear in the dual vertices of simplices. So climbing over neighbours
-///          ends where it is largest, as the simplex method does, and the simplices where it is more than a
-///          bound hang together with that one.
+/// Method   A simplex that no point is too far above has a slab below its own plane and all points. From those
+///          that are beside simplices that points are too far above the slab is grown over these. What no
+///          slab reaches may still be held by one that begins further away: hardly ever, but at the rim of a
+///          thin hull.
 /// Shapes   points: point_count x rank, the frame's; left_out: above these simplices by these gauges. Of
 ///          those that the space has not nothing is said.
 /// Units    width: that of the space.
-/// Returns  with such a simplex each, the largest gauge of `left_out` first.
-/// Limits   the last are not looked at when simplices have been a quarter as often as there are, and 4,096
-///          times.
+/// Returns  the furthest above each of these simplices, a point once, with one of them each; ascending.
+///          Nothing where to know would take long.
+/// Cost     climbs over neighbours; products of all planes with the points that may be so far above any, and
+///          of the slabs' planes with vertices.
 std::vector<LocatedPoint> find_far_above(const GrowthWork& work, const double* points,
-                                         const WidthSpace& space, std::vector<LocatedPoint> left_out,
+                                         const WidthSpace& space, const std::vector<LocatedPoint>& left_out,
                                          double width);
 
 }  // namespace ndhull
