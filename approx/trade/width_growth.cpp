@@ -95,7 +95,7 @@ void Approximation::grow_for_width(double outside_width, double slab) {
 
 /// Grows some simplices, and sees whether all points will be vertices whatever their order.
 void Approximation::choose_order(double outside_width) {
-  if (!is_width_without_limits() || growth_.options().limits.has_any()) return;
+  if (!is_width_without_limits()) return;
   GrowthOptions& options = growth_.work().options;
   for (std::uint64_t rows = kRowsBeforeGauges; rows <= kMostRowsBeforeGauges && !options.by_gauge;
        rows *= 2) {
@@ -105,13 +105,19 @@ void Approximation::choose_order(double outside_width) {
 }
 
 /// Hardly any point was left out so far, and those still outside are further than W by so much that hardly
-/// any will be.
+/// any will be. A limit on memory is far away.
 bool Approximation::will_take_in_all(double outside_width) const {
   constexpr double kClear = 1.5;
   constexpr std::size_t kHardlyAny = 256;  // one of so many
   const GrowthWork& work = growth_.work();
   const std::size_t known = work.most_vertices() + work.points_outside;
   if (known + work.point_count / kHardlyAny < work.point_count) return false;
+  // Simplices rise about with the square of vertices, and somewhat faster in many dimensions.
+  constexpr double kFaster = 8.0;
+  const double more = static_cast<double>(known) / static_cast<double>(work.most_vertices());
+  const double rows = kFaster * more * more * static_cast<double>(work.complex.row_count - work.free_count);
+  const std::uint64_t most_rows = growth_.most_rows();
+  if (most_rows > 0 && rows > static_cast<double>(most_rows)) return false;
   std::vector<std::uint32_t> far;
   work.heights.list_above(kClear * outside_width, far);
   return far.size() == work.points_outside;
