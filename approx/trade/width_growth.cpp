@@ -105,7 +105,7 @@ void Approximation::choose_order(double outside_width) {
 }
 
 /// Hardly any point was left out so far, and those still outside are further than W by so much that hardly
-/// any will be. A limit on memory is far away.
+/// any will be. The user's limit on memory is far away.
 bool Approximation::will_take_in_all(double outside_width) const {
   constexpr double kClear = 1.5;
   constexpr std::size_t kHardlyAny = 256;  // one of so many
@@ -116,8 +116,9 @@ bool Approximation::will_take_in_all(double outside_width) const {
   constexpr double kFaster = 8.0;
   const double more = static_cast<double>(known) / static_cast<double>(work.most_vertices());
   const double rows = kFaster * more * more * static_cast<double>(work.complex.row_count - work.free_count);
-  const std::uint64_t most_rows = growth_.most_rows();
-  if (most_rows > 0 && rows > static_cast<double>(most_rows)) return false;
+  // The machine's memory changes nothing.
+  if (growth_.options().limits.max_memory_bytes > 0 && rows > static_cast<double>(growth_.most_rows()))
+    return false;
   std::vector<std::uint32_t> far;
   work.heights.list_above(kClear * outside_width, far);
   return far.size() == work.points_outside;
