@@ -107,7 +107,8 @@ void Approximation::choose_order(double outside_width) {
 /// Hardly any point was left out so far, and those still outside are further than W by so much that hardly
 /// any will be. The user's limit on memory is far away.
 bool Approximation::will_take_in_all(double outside_width) const {
-  constexpr double kClear = 1.5;
+  constexpr double kClear = 1.5, kWidthsAbove = 3.0;  // else growth may end before W
+  if (growth_.furthest_height() < kWidthsAbove * lengths_.width) return false;
   constexpr std::size_t kHardlyAny = 256;  // one of so many
   const GrowthWork& work = growth_.work();
   const std::size_t known = work.most_vertices() + work.points_outside;
