@@ -49,8 +49,8 @@ struct GrowthOptions {
   /// then not always next. Only without limits: an early end should have the furthest points.
   bool in_regions = false;
   /// The point whose gauge is largest comes next, however far it is: that makes fewer simplices on the way,
-  /// of elongated hulls most. Only without limits, and where no point is about to be left out. May be changed
-  /// between calls of `grow`.
+  /// of elongated hulls most. Only where no limit is near and no point is about to be left out, and not with
+  /// in_regions. May be changed between calls of `grow`.
   bool by_gauge = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
@@ -139,8 +139,8 @@ std::size_t most_rows(std::size_t rank);
 void make_room_for(GrowthWork& work, std::size_t rows);
 
 /// Adds outside points, the furthest of all first (but see in_regions and by_gauge), until none are left or
-/// a limit is hit. May be called again after `push_outside`. Points in outside sets that are no higher than the least
-/// height are left out then: no set has any.
+/// a limit is hit. May be called again after `push_outside`. Points in outside sets that are no higher than
+/// the least height are left out then: no set has any.
 GrowthStop grow(GrowthWork& work);
 
 /// How far a point with this gauge is above simplex `row`: its distance in length units, or the gauge itself
