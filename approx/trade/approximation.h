@@ -128,6 +128,9 @@ class Approximation {
   void probe_widths(std::uint64_t count, CountSearch& search);
   std::uint64_t balance_facets(std::uint64_t count, const Covering& start, double slab,
                                std::uint64_t most_turns, CountSearch& search);
+  std::vector<std::uint32_t> simplices_of_widest(const Covering& covering, const TrueWidths& widths) const;
+  std::vector<PointId> points_far_above(std::span<const std::uint32_t> simplices, double width);
+  void take_in_widening(std::uint64_t count, double outside_width, CountSearch& search);
   bool look_further(double width, Covering& covering);
   void look_for_fewer(double width, Covering& covering);
   void look_for_narrower(std::uint64_t count, CountSearch& search);

@@ -384,6 +384,7 @@ FacetClusters Approximation::run_count() {
   probe_widths(count, search);
   const Covering start = search.narrowest;
   balance_facets(count, start, search.slab, kMostTurns, search);
+  take_in_widening(count, outside_width, search);
   if (is_thorough()) look_for_narrower(count, search);
   hull_.chosen.slab_width = search.slab;
   return clusters_of(search.narrowest, *space_);
