@@ -6,6 +6,7 @@
 
 #include "core/ids.h"
 #include "core/linear/dense_solve.h"
+#include "core/machine/prefetch.h"
 
 namespace ndhull {
 namespace {
@@ -51,6 +52,25 @@ FacetMembers::FacetMembers(const Covering& covering) : begin_(covering.planes.si
   rows_.resize(begin_.back());
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row)
     if (covering.facet_of[row] != kNone) rows_[at[covering.facet_of[row]]++] = row;
+}
+
+std::span<const std::uint32_t> FacetVertices::list(const SimplicialComplex& complex, const WidthSpace& space,
+                                                   std::span<const std::uint32_t> members) {
+  constexpr std::size_t kMembersAhead = 8;  // whose vertices are on their way from memory
+  pass_of_row_.resize(space.vertex_count(), 0);
+  rows_.clear();
+  ++pass_;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const SimplexId later{members[std::min(i + kMembersAhead, members.size() - 1)]};
+    prefetch(complex.vertices(later).data(), complex.rank);
+    for (const PointId id : complex.vertices(SimplexId{members[i]})) {
+      const std::uint32_t row = space.row_of(id);
+      if (pass_of_row_[row] == pass_) continue;
+      pass_of_row_[row] = pass_;
+      rows_.push_back(row);
+    }
+  }
+  return rows_;
 }
 
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {

@@ -36,6 +36,20 @@ class FacetMembers {
   std::vector<std::uint32_t> begin_, rows_;
 };
 
+/// The vertices of one facet after the other, each once.
+class FacetVertices {
+ public:
+  /// As rows of the space, in the order in which the simplices `members` name them; valid until the next call.
+  /// One space for all calls.
+  std::span<const std::uint32_t> list(const SimplicialComplex& complex, const WidthSpace& space,
+                                      std::span<const std::uint32_t> members);
+
+ private:
+  std::vector<std::uint32_t> rows_;
+  std::vector<std::uint32_t> pass_of_row_;  // of the space: the last pass that met it
+  std::uint32_t pass_ = 0;
+};
+
 /// The facets that are no mere simplex with its own plane, with their planes in the frame.
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space);
 

@@ -20,8 +20,8 @@ namespace {
 constexpr unsigned kExchanges = 4;  // rings of simplices that a facet can win in a turn
 constexpr unsigned kTurnSteps = 64;
 constexpr std::size_t kRowsInBlock = 1024, kFitsAtATime = 4;
-/// Rows whose neighbours' facets are on their way from memory, and members whose vertices are.
-constexpr std::size_t kNeighboursAhead = 8, kRowsOfFacetAhead = 8;
+/// Rows whose neighbours' facets are on their way from memory.
+constexpr std::size_t kNeighboursAhead = 8;
 
 }  // namespace
 
@@ -155,21 +155,9 @@ void FacetBalance::mark_changed(const std::vector<std::uint32_t>& before) {
 
 void FacetBalance::fit(std::uint32_t facet, std::span<const std::uint32_t> members, BalanceScratch& scratch) {
   FittedPlane& plane = covering_.planes[facet];
-  scratch.pass_of_row.resize(space_.vertex_count(), 0);
-  scratch.vertices.clear();
-  ++scratch.pass;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const SimplexId later{members[std::min(i + kRowsOfFacetAhead, members.size() - 1)]};
-    prefetch(complex_.vertices(later).data(), complex_.rank);
-    for (const PointId id : complex_.vertices(SimplexId{members[i]})) {
-      const std::uint32_t row = space_.row_of(id);
-      if (scratch.pass_of_row[row] == scratch.pass) continue;
-      scratch.pass_of_row[row] = scratch.pass;
-      scratch.vertices.push_back(row);
-    }
-  }
-  const FittedPlane start = measure_plane(space_, plane.normal, scratch.vertices, scratch.fit);
-  plane = narrow_plane(space_, start, scratch.vertices, kTurnSteps, scratch.fit);
+  const std::span<const std::uint32_t> vertices = scratch.vertices.list(complex_, space_, members);
+  const FittedPlane start = measure_plane(space_, plane.normal, vertices, scratch.fit);
+  plane = narrow_plane(space_, start, vertices, kTurnSteps, scratch.fit);
   is_turned_[facet] = plane.normal != start.normal ? 1 : 0;
 }
 

@@ -60,9 +60,7 @@ class FacetBalance {
   /// What one thread needs.
   struct BalanceScratch {
     PlaneFitWork fit;
-    std::vector<std::uint32_t> vertices;     // of a facet, as rows of the space
-    std::vector<std::uint32_t> pass_of_row;  // of the space: the last pass that met it
-    std::uint32_t pass = 0;
+    FacetVertices vertices;
   };
   void fit(std::uint32_t facet, std::span<const std::uint32_t> members, BalanceScratch& scratch);
   void drop_empty(const FacetMembers& members_of);

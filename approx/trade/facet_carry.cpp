@@ -142,27 +142,16 @@ class FacetCarrier {
   void measure() {
     struct CarryScratch {
       PlaneFitWork fit;
-      std::vector<std::uint32_t> vertices, pass_of_row;
-      std::uint32_t pass = 0;
+      FacetVertices vertices;
     };
     const FacetMembers members_of(carried_);
     tbb::enumerable_thread_specific<CarryScratch> scratch_of_thread;
     for_each_block(carried_.planes.size(), kPlanesAtATime, [&](std::size_t begin, std::size_t end) {
       CarryScratch& scratch = scratch_of_thread.local();
-      scratch.pass_of_row.resize(space_.vertex_count(), 0);
       for (std::size_t facet = begin; facet < end; ++facet) {
-        ++scratch.pass;
-        scratch.vertices.clear();
-        for (const std::uint32_t member : members_of.of(facet)) {
-          for (const PointId id : complex_.vertices(SimplexId{member})) {
-            const std::uint32_t row = space_.row_of(id);
-            if (scratch.pass_of_row[row] == scratch.pass) continue;
-            scratch.pass_of_row[row] = scratch.pass;
-            scratch.vertices.push_back(row);
-          }
-        }
+        const auto vertices = scratch.vertices.list(complex_, space_, members_of.of(facet));
         FittedPlane& plane = carried_.planes[facet];
-        plane = measure_plane(space_, plane.normal, scratch.vertices, scratch.fit);
+        plane = measure_plane(space_, plane.normal, vertices, scratch.fit);
       }
     });
     carried_.widest = 0.0;

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <vector>
 
 #include "approx/slabs/slab_cover.h"
 #include "tests/approximate/approximate_laws.h"
+#include "tests/approximate/grown_sphere.h"
 #include "tests/hull/hull_support.h"
 #include "tests/prepared_growth.h"
 
@@ -21,8 +21,8 @@ namespace {
 
 using Vertices = std::vector<std::uint32_t>;  // of a simplex, ascending
 
-/// A hull that grows step by step, in a frame whose coordinates are taken for distances.
-struct SteppedHull {
+/// A hull that grows step by step.
+struct SteppedHull : FramedGrowth {
   explicit SteppedHull(const PointSet& set) {
     const Frame frame = prepare_growth(set.view(), coordinates, work);
     identity.assign(frame.rank * frame.rank, 0.0);
@@ -44,22 +44,11 @@ struct SteppedHull {
       if (is_live(row) && std::ranges::count(vertices_of(row), point) > 0) return true;
     return false;
   }
-  bool is_live(std::uint32_t row) const { return work.complex.state[row] == SimplexState::kLive; }
   Vertices vertices_of(std::uint32_t row) const {
     Vertices ids;
     for (const PointId id : work.complex.vertices(SimplexId{row})) ids.push_back(id.value);
     std::sort(ids.begin(), ids.end());
     return ids;
-  }
-  double product(const std::vector<double>& normal, std::uint32_t point) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < work.rank; ++k) sum += normal[k] * coordinates[point * work.rank + k];
-    return sum;
-  }
-  double height(const std::vector<double>& normal) const {
-    double highest = -HUGE_VAL;
-    for (std::uint32_t id = 0; id < work.point_count; ++id) highest = std::max(highest, product(normal, id));
-    return highest;
   }
   double low(const std::vector<double>& normal, const Vertices& vertices) const {
     double lowest = HUGE_VAL;
@@ -67,9 +56,7 @@ struct SteppedHull {
     return lowest;
   }
 
-  std::vector<double> coordinates, identity;
-  GrowthWork work;
-  std::optional<WidthSpace> space;
+  std::vector<double> identity;
 };
 
 /// The normals of the facets that may take new simplices: those that have lost some, or stand beside them.

@@ -18,20 +18,8 @@
 
 namespace ndhull {
 
-/// The hull of points of a sphere, grown in a frame whose coordinates are taken for distances.
-struct GrownSphere {
-  GrownSphere(const char* rbox_words, std::uint32_t vertex_count) : set(rbox(rbox_words)) {
-    const Frame frame = prepare_growth(set.view(), coordinates, work);
-    const std::size_t rank = frame.rank;
-    start_growth(work, frame.simplex, FirstPoints());
-    grow(work);
-    std::vector<double> identity(rank * rank, 0.0);
-    for (std::size_t k = 0; k < rank; ++k) identity[k * rank + k] = 1.0;
-    std::vector<PointId> vertices;
-    for (std::uint32_t id = 0; id < work.point_count; ++id) vertices.push_back(PointId{id});
-    EXPECT_EQ(vertices.size(), vertex_count);
-    space.emplace(rank, identity, coordinates.data(), work.point_count, vertices, std::vector<PointId>{});
-  }
+/// A complex in a frame whose coordinates are taken for distances.
+struct FramedGrowth {
   bool is_live(std::uint32_t row) const { return work.complex.state[row] == SimplexState::kLive; }
   double product(const std::vector<double>& normal, std::uint32_t point) const {
     double sum = 0.0;
@@ -44,10 +32,27 @@ struct GrownSphere {
     return highest;
   }
 
-  PointSet set;
   std::vector<double> coordinates;
   GrowthWork work;
   std::optional<WidthSpace> space;
+};
+
+/// The hull of points of a sphere.
+struct GrownSphere : FramedGrowth {
+  GrownSphere(const char* rbox_words, std::uint32_t vertex_count) : set(rbox(rbox_words)) {
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
+    const std::size_t rank = frame.rank;
+    start_growth(work, frame.simplex, FirstPoints());
+    grow(work);
+    std::vector<double> identity(rank * rank, 0.0);
+    for (std::size_t k = 0; k < rank; ++k) identity[k * rank + k] = 1.0;
+    std::vector<PointId> vertices;
+    for (std::uint32_t id = 0; id < work.point_count; ++id) vertices.push_back(PointId{id});
+    EXPECT_EQ(vertices.size(), vertex_count);
+    space.emplace(rank, identity, coordinates.data(), work.point_count, vertices, std::vector<PointId>{});
+  }
+
+  PointSet set;
 };
 
 /// Of each facet the largest depth of a vertex of the facet's simplices below the furthest point along its
