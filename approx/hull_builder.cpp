@@ -70,6 +70,7 @@ Hull HullBuilder::run(BegunHull* begun) {
     }
   }
   // While coordinates and planes are those of growth.
+  const double height = is_exact ? 0.0 : growth_->furthest_height();
   const std::size_t simplices = complex().row_count - growth_->work().free_count;
   const std::uint64_t most_exact = most_exact_facets(lengths, accuracy, clusters_.facets_of(simplices));
   const bool may_be_few =
@@ -90,6 +91,7 @@ Hull HullBuilder::run(BegunHull* begun) {
   if (hull_.layout_.simplicial < hull_.layout_.facets) known = {};  // facets are no longer the rows
   make_facets(known);
   seconds(Phase::kMerge) += seconds_since(merge_start);
+  if (is_wide_for(height, lengths)) return narrow_instead(lengths);
   if (earlier_.has_tried_exact) return std::move(hull_);
   if (const auto most = simplices_of_exact(hull_, may_be_few, options_, lengths)) {
     Hull exact = with(Accuracy(), lengths, *most);
@@ -210,6 +212,30 @@ Hull HullBuilder::for_width_instead() {
   HullOptions options = options_;
   options.accuracy.objective = FacetObjective::kWidth;
   return again(options);
+}
+
+/// Has memory ended growth, and are the simplices, for which it went, far wider than points are above them?
+/// Points are far above others then, which slabs may hold.
+bool HullBuilder::is_wide_for(double height, const ResolvedAccuracy& lengths) const {
+  constexpr double kTimesAsWide = 2.0, kEnoughTime = 0.5;
+  return hull_.status == HullStatus::kMemoryLimit && !hull_.is_approximate && lengths.width > 0.0 &&
+         options_.accuracy.facets == 0 && hull_.max_facet_width > kTimesAsWide * height &&
+         growth_->seconds_left() > kEnoughTime * options_.limits.max_seconds;
+}
+
+/// Slabs as narrow as there is memory for, in place of simplices. Where points are far above simplices more
+/// facets are hardly narrower (wine, of 11-d points).
+Hull HullBuilder::narrow_instead(const ResolvedAccuracy& lengths) {
+  constexpr std::uint64_t kFacets = 500;
+  HullOptions options = options_;
+  options.accuracy.width = Length();
+  options.accuracy.facets = kFacets;
+  hull_ = Hull();  // there is no room for both
+  Hull hull = again(options, {.has_tried_exact = true});
+  hull.chosen.width_asked = lengths.width_asked();
+  if (hull.status == HullStatus::kComplete && hull.max_facet_width > lengths.width)
+    hull.status = HullStatus::kMemoryLimit;
+  return hull;
 }
 
 Hull HullBuilder::with_larger_shift() {

@@ -76,6 +76,8 @@ class HullBuilder {
   Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets,
             std::uint64_t joined_to = 0);
   Hull for_width_instead();
+  bool is_wide_for(double height, const ResolvedAccuracy& lengths) const;
+  Hull narrow_instead(const ResolvedAccuracy& lengths);
   Hull with_larger_shift();
 
   bool take_described();

@@ -36,6 +36,12 @@ Limits limits_of_growth(const HullOptions& options) {
   return limits;
 }
 
+Gathering gathering_of(const Accuracy& accuracy) {
+  if (accuracy.facets > 0) return Gathering::kCount;
+  if (accuracy.width.is_set()) return Gathering::kWidth;
+  return accuracy.merges_neighbours() ? Gathering::kRule : Gathering::kNone;
+}
+
 }  // namespace
 
 CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
@@ -46,7 +52,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       options_(options),
       start_(start),
       hull_(hull),
-      limits_(limits_of_growth(options), start, options.accuracy.facets > 0) {
+      limits_(limits_of_growth(options), start, gathering_of(options.accuracy)) {
   coordinates_ = HugeArray<double>::to_write(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
   work_.rank = frame_.rank;
@@ -243,36 +249,6 @@ void CertifiedGrowth::locate_left_out(double useful_slack) {
                              searched_all, affordable_search()));
   seconds(Phase::kCertify) += seconds_since(begin);
   report_counters();
-}
-
-bool CertifiedGrowth::may_search(std::size_t points) {
-  if (limits_.has_memory_to_search(work_, frame_.dimension, point_bytes(), points)) return true;
-  hull_.status = HullStatus::kMemoryLimit;
-  return false;
-}
-
-bool CertifiedGrowth::may_cover() {
-  const bool has_ended = is_found_otherwise_ || hull_.status == HullStatus::kTimeLimit ||
-                         hull_.status == HullStatus::kInterrupted;
-  if (has_ended) return false;
-  if (options_.stop.stop_requested()) {
-    hull_.status = HullStatus::kInterrupted;
-  } else if (!limits_.has_time_to_cover(work_)) {
-    hull_.status = HullStatus::kTimeLimit;
-  } else if (!limits_.has_memory_to_cover(work_, frame_.dimension, point_bytes())) {
-    hull_.status = HullStatus::kMemoryLimit;
-  } else {
-    return true;
-  }
-  return false;
-}
-
-bool CertifiedGrowth::is_late() {
-  const bool is_stopped = options_.stop.stop_requested();
-  if (!is_stopped && !limits_.is_late()) return false;
-  if (hull_.status == HullStatus::kComplete)
-    hull_.status = is_stopped ? HullStatus::kInterrupted : HullStatus::kTimeLimit;
-  return true;
 }
 
 void CertifiedGrowth::put_back(std::span<const LocatedPoint> points) {

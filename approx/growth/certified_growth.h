@@ -85,6 +85,9 @@ class CertifiedGrowth {
   /// May the simplices be gathered into facets? Not when time is up, memory is short or a stop was requested:
   /// then they are the facets, which takes neither.
   bool may_cover();
+  /// Has a limit on time or simplices ended growth, and is there time to gather what there is all the same? The
+  /// limit; the status is then that of growth that has paused. kComplete: no.
+  HullStatus go_on_within_limit();
   /// Is there memory to search so many points for the furthest above each simplex (outside_points.h)? The
   /// status says when there is not.
   bool may_search(std::size_t points);

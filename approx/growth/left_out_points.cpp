@@ -87,15 +87,4 @@ void CertifiedGrowth::choose_certificate_points(std::size_t facets) {
   for (const LocatedPoint& point : left_out_) certificate_wanted_[point.point.value] = true;
 }
 
-WorkEnd CertifiedGrowth::end_of_merging() const {
-  constexpr double kShare = 0.8, kMoment = 0.3;
-  if (options_.stop.stop_requested()) return WorkEnd(kMoment, {});
-  return WorkEnd(kShare * options_.limits.max_seconds, options_.stop, start_);
-}
-
-void CertifiedGrowth::note_end(bool is_cut_short) {
-  if (!is_cut_short || is_limited()) return;
-  hull_.status = options_.stop.stop_requested() ? HullStatus::kInterrupted : HullStatus::kTimeLimit;
-}
-
 }  // namespace ndhull

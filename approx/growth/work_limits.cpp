@@ -16,8 +16,9 @@ constexpr double kPlainShare = 0.4;
 constexpr double kSharePerProduct = 1.0 / 5000.0;
 /// Coplanar merging, where points were shifted: 9-d and 10-d cubes.
 constexpr double kMergeShare = 3.0;
-/// Slabs, of an approximate hull.
-constexpr double kCoverShare = 10.0;
+/// Clusters under a rule. Slabs of a width, and their facet table: 1 to 3 on spheres, balls, cubes and
+/// gaussian points in 5-d to 10-d, 4 to 6 where many points are left out (balls in 6-d, wine in 11-d).
+constexpr double kRuleShare = 10.0, kWidthShare = 3.0, kWidthShareOfMany = 7.0;
 /// Points that are located to learn what that costs; and what walking adds where climbing proves nothing, and
 /// the longer ways in a hull that may be twice as large by then: 10-d spheres.
 constexpr std::size_t kSampledPoints = 64, kSamplesAgain = 3;
@@ -59,8 +60,8 @@ std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t poin
 std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const {
   if (limits_.most_memory() == 0) return 0;
-  const bool merges = must_cover_ || !work.shifted_points.empty();
-  return rows_for(row_bytes(work, dimension, merges, must_cover_), point_bytes);
+  const bool covers = gathering_ == Gathering::kCount;
+  return rows_for(row_bytes(work, dimension, covers || !work.shifted_points.empty(), covers), point_bytes);
 }
 
 bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
@@ -112,7 +113,8 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
   const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
   if (!work.shifted_points.empty()) share += kMergeShare;
-  if (!must_cover_) share += limits_.share_afterwards;
+  if (gathering_ == Gathering::kWidth) share += width_share(work, work.points_outside);
+  if (gathering_ != Gathering::kCount) share += limits_.share_afterwards;
   return static_cast<double>(rows) * share * seconds_per_created(work) +
          static_cast<double>(points) * seconds_per_point_;
 }
@@ -134,10 +136,16 @@ bool WorkLimits::is_time_up(const GrowthWork& work, const HullBall& ball, std::u
   return false;
 }
 
-bool WorkLimits::has_time_to_cover(const GrowthWork& work) const {
+double WorkLimits::width_share(const GrowthWork& work, std::uint64_t left_out) {
+  constexpr std::uint64_t kMany = 4;  // times as many as there are vertices
+  return left_out > kMany * work.most_vertices() ? kWidthShareOfMany : kWidthShare;
+}
+
+bool WorkLimits::has_time_to_cover(const GrowthWork& work, std::uint64_t left_out) const {
   if (limits_.max_seconds <= 0.0) return true;
+  const double share = gathering_ == Gathering::kWidth ? width_share(work, left_out) : kRuleShare;
   const double rows = static_cast<double>(work.complex.row_count - work.free_count);
-  return rows * kCoverShare * seconds_per_created(work) < seconds_left();
+  return rows * share * seconds_per_created(work) < seconds_left();
 }
 
 bool WorkLimits::is_late() const {

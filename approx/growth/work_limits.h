@@ -11,6 +11,14 @@
 
 namespace ndhull {
 
+/// What becomes of the simplices after growth.
+enum class Gathering {
+  kNone,   ///< they are the facets, or coplanar ones are merged
+  kRule,   ///< clusters under a rule (C, A), if there is time and memory
+  kWidth,  ///< slabs of a width, likewise
+  kCount,  ///< a number of facets, in any case
+};
+
 /// Foresees what a hull will need after growth, from what growth needed so far.
 ///
 /// Time    Each simplex costs some share of what making it did; the shares were measured in 5-d to 10-d. What
@@ -20,10 +28,9 @@ class WorkLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `start`: of the clock that max_seconds limits. `must_cover`: the simplices are gathered into facets in
-  /// any case.
-  WorkLimits(const Limits& limits, Clock::time_point start, bool must_cover)
-      : limits_(limits), start_(start), must_cover_(must_cover) {}
+  /// `start`: of the clock that max_seconds limits.
+  WorkLimits(const Limits& limits, Clock::time_point start, Gathering gathering)
+      : limits_(limits), start_(start), gathering_(gathering) {}
 
   /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
   /// of the points.
@@ -31,8 +38,9 @@ class WorkLimits {
   /// Would the rest end after max_seconds, were growth to end now? `points`: those that are to be proven
   /// inside.
   bool is_time_up(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
-  /// Is there time, and is there memory, to gather the simplices into slabs?
-  bool has_time_to_cover(const GrowthWork& work) const;
+  /// Is there time, and is there memory, to gather the simplices into slabs? `left_out`: points that
+  /// are no vertices and not well inside.
+  bool has_time_to_cover(const GrowthWork& work, std::uint64_t left_out) const;
   bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
   /// Is there memory to search `points` for the furthest above each simplex (outside_points.h)?
   bool has_memory_to_search(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
@@ -52,11 +60,12 @@ class WorkLimits {
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
   /// Of some points from the one with id `first` on, taken evenly.
   static double sampled_seconds_per_point(const GrowthWork& work, const HullBall& ball, std::size_t first);
+  static double width_share(const GrowthWork& work, std::uint64_t left_out);
   static double seconds_per_created(const GrowthWork& work);
 
   Limits limits_;
   Clock::time_point start_;
-  bool must_cover_;
+  Gathering gathering_;
   std::uint64_t sampled_at_ = 0;  // rows when points were sampled last
   double seconds_per_point_ = 0.0;
 };

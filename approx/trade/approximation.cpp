@@ -40,6 +40,8 @@ constexpr double kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 /// Where points were shifted all that hold less than the mean do, if it is no less than this.
 constexpr std::size_t kPartOfMean = 4, kLargeOfShifted = 16;
+/// Part of the width that points may be outside where a limit has ended growth.
+constexpr double kShareOutside = 0.85;
 
 }  // namespace
 
@@ -57,7 +59,11 @@ Approximation::Approximation(const Frame& frame, const Accuracy& accuracy, const
 
 FacetClusters Approximation::run() {
   if (accuracy_.facets > 0) return run_count();
-  if (lengths_.width > 0.0) return run_width();
+  if (lengths_.width > 0.0) {
+    FacetClusters clusters = run_width();
+    if (hull_.status == HullStatus::kComplete) hull_.status = limit_of_width_;
+    return clusters;
+  }
   grow_outside_width();
   return accuracy_.merges_neighbours() && growth_.may_cover() ? run_merging() : FacetClusters{};
 }
@@ -286,8 +292,25 @@ std::vector<LocatedPoint> Approximation::few_far_above(double width) const {
   return far;
 }
 
+/// Is there time for another round, the last one having taken so long?
+bool Approximation::may_go_on(double seconds_of_round) {
+  constexpr double kRounds = 2.5;  // and the facet table
+  return is_limited_width() ? growth_.seconds_left() > kRounds * seconds_of_round : !growth_.is_late();
+}
+
+/// Has a limit ended growth, with time to gather what there is? Then facets may be as wide as the points that
+/// are left out make them: simplices, of which there are many times more, are no narrower.
+bool Approximation::settles_for_wider(double& outside_width, double& target) {
+  if (is_limited_width()) return false;
+  limit_of_width_ = growth_.go_on_within_limit();
+  if (!is_limited_width()) return false;
+  outside_width = std::max(outside_width, growth_.furthest_height());
+  target = std::max(target, outside_width / kShareOutside);
+  return true;
+}
+
 FacetClusters Approximation::run_width() {
-  const double target = lengths_.width * (1.0 - 1e-9);
+  double target = lengths_.width * (1.0 - 1e-9);
   double outside_width =
       lengths_.outside_width > 0.0 ? lengths_.outside_width : kShareForGrowth * lengths_.width;
   constexpr int kRoundsOfFar = 3;
@@ -299,12 +322,15 @@ FacetClusters Approximation::run_width() {
   if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
     const bool is_last = round == kWidthRounds;
+    const Clock::time_point round_start = Clock::now();
     determinants_ = HugeArray<double>();
     grow_for_width(outside_width, slab);
-    if (!growth_.may_cover()) return FacetClusters{};
+    if (settles_for_wider(outside_width, target)) known.width = slab = target;
+    if (is_limited_width() ? hull_.status == HullStatus::kInterrupted : !growth_.may_cover())
+      return FacetClusters{};
     make_space(true);
     const bool may_grow = !is_last && !growth_.is_limited();
-    if (round == 0 && may_grow && leaves_out_hardly_any(outside_width)) {
+    if (round == 0 && may_grow && !is_limited_width() && leaves_out_hardly_any(outside_width)) {
       outside_width = 0.0;
       take_in(outside_width);
       continue;
@@ -333,7 +359,7 @@ FacetClusters Approximation::run_width() {
     const double widest = widths.widest();
     if (widest <= target && is_worth_looking_further(covering.planes.size()))
       look_for_fewer(target, covering);
-    if (widest <= target || !may_grow || growth_.is_late()) break;
+    if (widest <= target || !may_grow || !may_go_on(seconds_since(round_start))) break;
     const Offenders offenders = add_offenders(covering, widths, target);
     take_in(offenders.above_simplices, outside_width, round);
     if (offenders.widest_slab > target)

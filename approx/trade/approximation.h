@@ -90,6 +90,9 @@ class Approximation {
   bool is_final(const DualFacets& facets) const;
   bool is_thorough() const { return accuracy_.effort == Effort::kThorough; }
   Covering cover_width(double width, std::optional<DualFacets> slabs, HullFacets* known);
+  bool may_go_on(double seconds_of_round);
+  bool settles_for_wider(double& outside_width, double& target);
+  bool is_limited_width() const { return limit_of_width_ != HullStatus::kComplete; }
   bool leaves_out_hardly_any(double outside_width) const;
   double less_outside(double outside_width, int round) const;
   void take_in(double outside_width);
@@ -176,7 +179,8 @@ class Approximation {
   double input_bytes_;
   EarlierRun earlier_;
   bool wants_exact_first_ = false;
-  bool has_too_many_vertices_ = false;  // for stars, as far as is foreseen
+  HullStatus limit_of_width_ = HullStatus::kComplete;  // that has ended growth, and a wider one is looked for
+  bool has_too_many_vertices_ = false;                 // for stars, as far as is foreseen
   std::optional<StarHull> star_hull_;
   HugeArray<double> determinants_;  // per row, of the hull as it is now; no memory: not known
   std::vector<PointId> extra_;      // points that reached further than the space knew

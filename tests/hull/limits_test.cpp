@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <stop_token>
+#include <tuple>
 
 #include "core/complex/complex_check.h"
 #include "tests/hull/hull_support.h"
@@ -134,6 +135,27 @@ TEST(LimitsLaw, TimeEndsApproximateHullsWithACertifiedResult) {
     // On a machine with other work: alone it is about 0.25, without a limit 1.5 to many.
     EXPECT_LT(elapsed.count(), 8.0 * kSlower);
     EXPECT_GT(hull.facet_count(), hull.rank);
+    EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+    EXPECT_LE(largest_inner_excess(hull, set.view()), 0.0L);
+  }
+}
+
+// Facets are as wide as the points make them that the limit has left out; simplices are many more.
+TEST(LimitsLaw, AWidthThatALimitDoesNotAllowIsAnsweredByFewFacets) {
+  for (const auto& [family, n, d, limit] : {std::tuple{PointFamily::kSphere, 1500U, 5U, 5000U},
+                                            {PointFamily::kGaussian, 2000U, 6U, 8000U},
+                                            {PointFamily::kSphere, 300U, 8U, 60'000U}}) {
+    SCOPED_TRACE("d " + std::to_string(d));
+    const PointSet set = family_points(family, n, d, 71);
+    HullOptions options{.limits = {.max_facets = limit}};
+    const Hull simplices = hull_of(set, options);
+    options.accuracy.width = {.value = 0.5, .is_percent = true};
+    const Hull hull = hull_of(set, options);
+    EXPECT_EQ(hull.status, HullStatus::kFacetLimit);
+    EXPECT_TRUE(hull.is_approximate);
+    EXPECT_GT(hull.max_facet_width, hull.chosen.width_asked);
+    EXPECT_LT(4 * hull.facet_count(), simplices.facet_count());
+    EXPECT_LT(hull.max_facet_width, 1.5 * simplices.max_facet_width);
     EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
     EXPECT_LE(largest_inner_excess(hull, set.view()), 0.0L);
   }
