@@ -77,15 +77,7 @@ Hull HullBuilder::run(BegunHull* begun) {
       most_exact > 0 && may_be_few_facets(growth_->work(), growth_->coordinates(), most_exact);
   const Clock::time_point merge_start = Clock::now();
   KnownHighest known = growth_->take_known_highest();
-  const std::vector<RowMove> moves = compact(complex());
-  clusters_.move_rows(moves, complex().row_count);
-  for (const RowMove& move : moves) {
-    if (determinants_.data() != nullptr) determinants_[move.to] = determinants_[move.from];
-    if (known.highest.empty()) continue;
-    known.highest[move.to] = known.highest[move.from];
-    std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
-                known.normals.data() + move.to * frame_.dimension);
-  }
+  compact_rows(known);
   merge();
   if (!is_bounded_) return for_width_instead();
   if (hull_.layout_.simplicial < hull_.layout_.facets) known = {};  // facets are no longer the rows
@@ -98,6 +90,19 @@ Hull HullBuilder::run(BegunHull* begun) {
     if (is_exact_better(exact, hull_, accuracy, lengths)) return exact;
   }
   return std::move(hull_);
+}
+
+/// Moves the last rows of all tables into free ones.
+void HullBuilder::compact_rows(KnownHighest& known) {
+  const std::vector<RowMove> moves = compact(complex());
+  clusters_.move_rows(moves, complex().row_count);
+  for (const RowMove& move : moves) {
+    if (determinants_.data() != nullptr) determinants_[move.to] = determinants_[move.from];
+    if (known.highest.empty()) continue;
+    known.highest[move.to] = known.highest[move.from];
+    std::copy_n(known.normals.data() + move.from * frame_.dimension, frame_.dimension,
+                known.normals.data() + move.to * frame_.dimension);
+  }
 }
 
 void HullBuilder::describe_input() {
@@ -217,10 +222,11 @@ Hull HullBuilder::for_width_instead() {
 /// Has memory ended growth, and are the simplices, for which it went, far wider than points are above them?
 /// Points are far above others then, which slabs may hold.
 bool HullBuilder::is_wide_for(double height, const ResolvedAccuracy& lengths) const {
-  constexpr double kTimesAsWide = 2.0, kEnoughTime = 0.5;
+  constexpr double kTimesAsWide = 2.0, kTimesAsLong = 4.0;
   return hull_.status == HullStatus::kMemoryLimit && !hull_.is_approximate && lengths.width > 0.0 &&
-         options_.accuracy.facets == 0 && hull_.max_facet_width > kTimesAsWide * height &&
-         growth_->seconds_left() > kEnoughTime * options_.limits.max_seconds;
+         options_.accuracy.facets == 0 && height > 0.0 &&
+         hull_.max_facet_width > std::max(lengths.width, kTimesAsWide * height) &&
+         growth_->seconds_left() > kTimesAsLong * seconds_since(start_) && !options_.stop.stop_requested();
 }
 
 /// Slabs as narrow as there is memory for, in place of simplices. Where points are far above simplices more
@@ -231,10 +237,10 @@ Hull HullBuilder::narrow_instead(const ResolvedAccuracy& lengths) {
   options.accuracy.width = Length();
   options.accuracy.facets = kFacets;
   hull_ = Hull();  // there is no room for both
+  whole_facets_.reset();
   Hull hull = again(options, {.has_tried_exact = true});
   hull.chosen.width_asked = lengths.width_asked();
-  if (hull.status == HullStatus::kComplete && hull.max_facet_width > lengths.width)
-    hull.status = HullStatus::kMemoryLimit;
+  if (hull.status == HullStatus::kComplete) hull.status = HullStatus::kMemoryLimit;
   return hull;
 }
 

@@ -65,6 +65,7 @@ class HullBuilder {
   bool look_for_whole_facets(std::uint64_t work);
   bool finds_whole_facets_late();
   bool approximate(const std::vector<double>& factor);
+  void compact_rows(KnownHighest& known);
   void merge();
   void find_determinants(std::span<const std::uint8_t> is_shifted);
   void choose_for_volume(std::span<const double> determinants);

@@ -205,8 +205,9 @@ bool CertifiedGrowth::grow_exactly() {
 
 double CertifiedGrowth::affordable_search() const {
   constexpr double kSlower = 16.0;  // than products in vectors
+  constexpr double kPart = 0.3;
   return std::min(kSearchProducts,
-                  limits_.affordable_products(work_, options_.stop.stop_requested()) / kSlower);
+                  limits_.affordable_products(work_, kPart, options_.stop.stop_requested()) / kSlower);
 }
 
 void CertifiedGrowth::grow_from_some() {

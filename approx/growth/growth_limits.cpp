@@ -32,7 +32,7 @@ HullStatus CertifiedGrowth::go_on_within_limit() {
   const bool may_go_on = (limit == HullStatus::kTimeLimit || limit == HullStatus::kFacetLimit) &&
                          !options_.stop.stop_requested() &&
                          limits_.has_memory_to_cover(work_, frame_.dimension, point_bytes()) &&
-                         limits_.has_time_to_cover(work_, left_out_.size());
+                         limits_.has_time_to_cover(work_, work_.points_outside);
   if (!may_go_on) return HullStatus::kComplete;
   hull_.status = HullStatus::kComplete;
   return limit;

@@ -78,8 +78,9 @@ void CertifiedGrowth::list_left_out(const std::vector<LocatedPoint>& located) {
 void CertifiedGrowth::choose_certificate_points(std::size_t facets) {
   const double products =
       static_cast<double>(facets) * static_cast<double>(left_out_.size() * frame_.dimension);
-  const double affordable =
-      std::min(kAffordableProducts, limits_.affordable_products(work_, options_.stop.stop_requested()));
+  constexpr double kPart = 0.6;  // hardly anything comes after it
+  const double affordable = std::min(
+      kAffordableProducts, limits_.affordable_products(work_, kPart, options_.stop.stop_requested()));
   if (products > affordable && std::isfinite(hull_.max_outside_gauge)) {
     covered_gauge_ = hull_.max_outside_gauge + kFrameRounding;
     return;

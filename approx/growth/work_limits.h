@@ -50,9 +50,9 @@ class WorkLimits {
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
   double seconds_left() const;  ///< of max_seconds, which is above 0
-  /// Products of planes and points that fit into the time that is left; HUGE_VAL without a limit. After a
-  /// request to stop: that take a second, or some share of the time so far.
-  double affordable_products(const GrowthWork& work, bool is_stopped) const;
+  /// Products of planes and points that fit into this part of the time that is left; HUGE_VAL without a limit.
+  /// After a request to stop: that take a second, or some share of the time so far.
+  double affordable_products(const GrowthWork& work, double part, bool is_stopped) const;
 
  private:
   static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);

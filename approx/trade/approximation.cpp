@@ -295,17 +295,21 @@ std::vector<LocatedPoint> Approximation::few_far_above(double width) const {
 /// Is there time for another round, the last one having taken so long?
 bool Approximation::may_go_on(double seconds_of_round) {
   constexpr double kRounds = 2.5;  // and the facet table
-  return is_limited_width() ? growth_.seconds_left() > kRounds * seconds_of_round : !growth_.is_late();
+  if (!is_limited_width() || growth_.options().stop.stop_requested()) return !growth_.is_late();
+  return growth_.seconds_left() > kRounds * seconds_of_round;
 }
 
 /// Has a limit ended growth, with time to gather what there is? Then facets may be as wide as the points that
-/// are left out make them: simplices, of which there are many times more, are no narrower.
+/// are left out make them: simplices, of which there are many times more, are hardly narrower. True when that
+/// is wider than the target was.
 bool Approximation::settles_for_wider(double& outside_width, double& target) {
   if (is_limited_width()) return false;
   limit_of_width_ = growth_.go_on_within_limit();
   if (!is_limited_width()) return false;
   outside_width = std::max(outside_width, growth_.furthest_height());
-  target = std::max(target, outside_width / kShareOutside);
+  const double least = outside_width / kShareOutside;
+  if (least <= target) return false;
+  target = least;
   return true;
 }
 
@@ -322,11 +326,12 @@ FacetClusters Approximation::run_width() {
   if (find_stars(outside_width, slab)) return FacetClusters{};
   for (int round = 0;; ++round) {
     const bool is_last = round == kWidthRounds;
-    const Clock::time_point round_start = Clock::now();
     determinants_ = HugeArray<double>();
     grow_for_width(outside_width, slab);
+    const Clock::time_point round_start = Clock::now();
+    const bool may_cover = growth_.may_cover();
     if (settles_for_wider(outside_width, target)) known.width = slab = target;
-    if (is_limited_width() ? hull_.status == HullStatus::kInterrupted : !growth_.may_cover())
+    if (!may_cover && (!is_limited_width() || hull_.status == HullStatus::kInterrupted))
       return FacetClusters{};
     make_space(true);
     const bool may_grow = !is_last && !growth_.is_limited();

@@ -156,7 +156,7 @@ bool Approximation::leaves_out_hardly_any(double outside_width) const {
 double Approximation::less_outside(double outside_width, int round) const {
   constexpr int kPatience = 4;
   constexpr double kLess = 0.7;
-  if (lengths_.outside_width > 0.0) return outside_width;
+  if (lengths_.outside_width > 0.0 || is_limited_width()) return outside_width;
   if (leaves_out_hardly_any(outside_width) || round + 1 == kWidthRounds) return 0.0;
   return round < kPatience ? outside_width : kLess * outside_width;
 }

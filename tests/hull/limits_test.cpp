@@ -154,6 +154,7 @@ TEST(LimitsLaw, AWidthThatALimitDoesNotAllowIsAnsweredByFewFacets) {
     EXPECT_EQ(hull.status, HullStatus::kFacetLimit);
     EXPECT_TRUE(hull.is_approximate);
     EXPECT_GT(hull.max_facet_width, hull.chosen.width_asked);
+    EXPECT_GT(hull.chosen.outside_width, 0.0);  // some were left out
     EXPECT_LT(4 * hull.facet_count(), simplices.facet_count());
     EXPECT_LT(hull.max_facet_width, 1.5 * simplices.max_facet_width);
     EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
@@ -222,6 +223,19 @@ TEST(LimitsLaw, MemoryThatIsShortForMergingGoesIntoGrowth) {
   const Hull few = hull_of(set, options);
   EXPECT_LE(few.facet_count(), 300U);
   EXPECT_LE(largest_outer_excess(few, set.view()), 0.0L);
+}
+
+// Growth has ended by itself: its simplices keep the width, and nothing else is looked for.
+TEST(LimitsLaw, SimplicesThatKeepAWidthStayWhereMemoryIsShortForSlabs) {
+  const PointSet set = sphere(2000, 5);
+  // With a limit on time nothing is tried without the complex.
+  HullOptions options{.limits = {.max_seconds = 600.0, .max_memory_bytes = 12'000'000}};
+  options.accuracy.width = {.value = 6.0, .is_percent = true};
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, HullStatus::kMemoryLimit);
+  EXPECT_FALSE(hull.is_approximate);
+  EXPECT_LE(hull.max_facet_width, hull.chosen.width_asked);
+  EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
 }
 
 TEST(LimitsLaw, MergingIsCountedInTheMemory) {
