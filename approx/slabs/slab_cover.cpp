@@ -30,7 +30,7 @@ SlabCover::SlabCover(const SimplicialComplex& complex, const WidthSpace& space, 
     wide_.emplace(complex_, space_, grower_, seeds_, [this]() -> SlabScratch& { return scratch_.local(); });
 }
 
-Covering SlabCover::cover(double width, const CoverEffort& effort, std::size_t most) {
+Covering SlabCover::cover(double width, const CoverEffort& effort, std::size_t most, const WorkEnd& end) {
   if (wide_) {
     if (std::optional<Covering> covering = wide_->cover(width, effort)) {
       depth_of_.assign(complex_.row_count, 0.0f);
@@ -54,16 +54,16 @@ Covering SlabCover::cover(double width, const CoverEffort& effort, std::size_t m
       const std::span<const SeedChoice> seeds = seeds_.next_batch();
       if (seeds.empty()) break;
       add_slabs(seeds, width, effort);
-      if (is_given_up(effort, most)) return Covering{};
+      if (is_given_up(effort, most, end)) return Covering{};
     }
   }
   return assign(choose_slabs(slabs_, members_, seeds_.hits()), width, effort);
 }
 
 /// More slabs are grown than chosen, in each round as many.
-bool SlabCover::is_given_up(const CoverEffort& effort, std::size_t most) {
+bool SlabCover::is_given_up(const CoverEffort& effort, std::size_t most, const WorkEnd& end) {
   constexpr std::size_t kGrown = 2;
-  if (planes_.size() / (kGrown * effort.choices) < most) return false;
+  if (planes_.size() / (kGrown * effort.choices) < most && !end.is_here()) return false;
   const std::span<const std::uint8_t> hits = seeds_.hits();
   const auto in_none = static_cast<std::size_t>(std::count(hits.begin(), hits.end(), std::uint8_t{0}));
   const auto live = static_cast<double>(live_count());

@@ -23,6 +23,7 @@
 #include "approx/slabs/slab_seeds.h"
 #include "approx/slabs/wide_cover.h"
 #include "approx/slabs/width_space.h"
+#include "approx/work_end.h"
 #include "core/complex/simplicial_complex.h"
 
 namespace ndhull {
@@ -37,10 +38,12 @@ class SlabCover {
 
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
   /// wider becomes a facet all the same. The same for any number of threads. Given up, without planes, when it
-  /// turns out that they would be far more than `most`: expected_facets() then says about how many.
+  /// turns out that they would be far more than `most`: expected_facets() then says about how many. So when
+  /// `end` is there before all simplices are in some slab; these are then no fewer.
   /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes
   ///       a row for each thread, 8 for each place in a slab.
-  Covering cover(double width, const CoverEffort& effort, std::size_t most = SIZE_MAX);
+  Covering cover(double width, const CoverEffort& effort, std::size_t most = SIZE_MAX,
+                 const WorkEnd& end = WorkEnd());
 
   double expected_facets() const { return expected_facets_; }
   std::size_t live_count() const { return seeds_.live_count(); }
@@ -48,7 +51,7 @@ class SlabCover {
  private:
   using Members = std::span<const std::uint32_t>;
 
-  bool is_given_up(const CoverEffort& effort, std::size_t most);
+  bool is_given_up(const CoverEffort& effort, std::size_t most, const WorkEnd& end);
   void add_slabs(std::span<const SeedChoice> seeds, double width, const CoverEffort& effort);
   Covering assign(const std::vector<std::uint32_t>& chosen, double width, const CoverEffort& effort);
   void measure_facets(Covering& covering, double width, const CoverEffort& effort);

@@ -105,6 +105,7 @@ class Approximation {
     double slab = 0.0;          // of its slabs
     double power = 0.0;         // of the width: how the number of facets fell last; 0: not known
     std::uint64_t covered = 0;  // simplices, again for each covering
+    bool is_cut_short = false;  // a covering, for want of time
     bool has_any() const { return !narrowest.planes.empty(); }
   };
   /// A covering by slabs of one width.

@@ -20,17 +20,15 @@ constexpr std::uint64_t kMostWhereFar = 2'000'000;
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// One in so many is grown beyond that for slabs as thin as they are thought to become.
 constexpr std::uint64_t kFewMore = 8;
-/// Part of the width that points left out may be outside without growth going on to kMostWorthGrowing.
-constexpr double kNearSlab = 0.75;
-/// The same where slabs turned out narrower than growth was meant for.
-constexpr double kTooNearSlab = 0.85;
+/// Part of the width that points left out may be outside without growth going on to kMostWorthGrowing, and
+/// where slabs turned out narrower than growth was meant for.
+constexpr double kNearSlab = 0.75, kTooNearSlab = 0.85;
 /// Growth goes on where slabs turn out narrower than this part of what it was meant for.
 constexpr double kCoarse = 0.75;
 /// Simplices that are covered, counted again for each covering, until what there is is taken. On wine (11-d),
 /// where each round finds more points that a facet has to have, that is 5 to 20 s.
 constexpr std::uint64_t kMostCovered = 8'000'000;
-/// Rounds of more points, likewise.
-constexpr int kMostRounds = 24;
+constexpr int kMostRounds = 24;  // of more points, likewise
 constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
 /// A covering is given up when it would have so many times the facets that are wanted: one by slabs that are
 /// far too thin takes seconds where points are left out far above them.
@@ -46,6 +44,7 @@ constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
 /// are balanced, which uses what there is: of coverings that take long, and of others. Further off than the
 /// last, a step goes beyond the number.
 constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
+constexpr double kAboveFurthest = 1.1;  // a first width, in parts of how far outside the furthest point is
 /// The same for a first width, and the least part of it that is left without the points left out.
 constexpr double kRoughly = 0.5, kLeastOfGuess = 0.4;
 /// Steps of the width that are tried about the narrowest found, in vain each, and turns that balance what
@@ -83,7 +82,7 @@ void Approximation::close_and_join(Covering& covering, double width, bool joins)
 }
 
 /// Slabs of a width: disjoint ones where these are found, which takes a fraction of the time; not where
-/// points are far above many simplices, since the plane of each would have to be turned.
+/// points are far above many simplices, since each plane would have to be turned, unless time is short.
 Approximation::CountTrial Approximation::try_width(std::uint64_t count, const CoverEffort& effort,
                                                    double width, std::optional<SlabCover>& overlapping,
                                                    CountSearch& search) {
@@ -91,13 +90,18 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
   std::optional<DualFacets> slabs;
   FacetLimit limit{.most = kFarTooMany * count};
   const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
-  if (effort.choices == 1 && !are_far_above) slabs = find_disjoint_slabs(width, &limit);
+  if (effort.choices == 1 && (!are_far_above || search.is_cut_short))
+    slabs = find_disjoint_slabs(width, &limit);
   if (limit.is_exceeded()) return {static_cast<std::size_t>(limit.expected), {}};
   if (slabs) search.covered += live_count() / kDisjointQuicker;
   if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
-  Covering covering = slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, limit.most);
-  if (covering.planes.empty()) return {static_cast<std::size_t>(overlapping->expected_facets()), {}};
+  Covering covering = slabs ? covering_of(*slabs, *space_)
+                            : overlapping->cover(width, effort, limit.most, growth_.end_of_merging());
+  if (covering.planes.empty()) {
+    search.is_cut_short = growth_.end_of_merging().is_here();
+    return {std::max(static_cast<std::size_t>(overlapping->expected_facets()), count + 1), {}};
+  }
   if (!slabs) search.covered += live_count();
   if (covering.planes.size() <= 2 * count) close_and_join(covering, width, joins);
   return {covering.planes.size(), std::move(covering)};
@@ -285,7 +289,7 @@ Approximation::SlabGuess Approximation::guess_slab(std::uint64_t count, CountSea
   const std::uint64_t rows = std::max<std::uint64_t>(20'000, kSimplicesPerFacetFirst * count);
   if (growth_.grow_to(0.0, rows, HUGE_VAL) || growth_.is_limited()) return {};
   make_space(false);
-  const double start = std::max(0.1 * lengths_.largest_extent, 1.1 * growth_.furthest_height());
+  const double start = std::max(0.1 * lengths_.largest_extent, kAboveFurthest * growth_.furthest_height());
   if (cover_count(count, kPlain, start, kRoughly, search).planes.empty()) return {start, start};
   const double coarse = hull_.chosen.slab_width;
   return {coarse, std::max(coarse - growth_.furthest_height(), kLeastOfGuess * coarse)};
@@ -318,8 +322,11 @@ FacetClusters Approximation::run_count() {
       is_given ? lengths_.outside_width : kShareForGrowth * (is_thorough() ? guess.slab : guess.coarse);
   if (guess.coarse == 0.0)
     guess.coarse = guess.slab = std::max(0.1 * lengths_.largest_extent, 2.0 * outside_width);
-  double width = guess.slab;
   grow_for_count(count, outside_width, guess);
+  // Slabs that do not hold the points left out take long to be found.
+  if (hull_.status == HullStatus::kTimeLimit)
+    guess.slab = std::max(guess.slab, kAboveFurthest * growth_.furthest_height());
+  double width = guess.slab;
   // A few facets that share all points, as a grid's, are found when all points are in.
   if (!is_given && !is_whole() && is_degenerate() && live_count() <= kSmallHull && !growth_.is_limited()) {
     outside_width = 0.0;

@@ -162,6 +162,19 @@ TEST(LimitsLaw, AWidthThatALimitDoesNotAllowIsAnsweredByFewFacets) {
   }
 }
 
+// Far more facets than there is time for: thin slabs would be turned to points far above them for seconds.
+TEST(LimitsLaw, ManyFacetsAreLookedForInTime) {
+  const PointSet set = sphere(200, 12);
+  const auto start = std::chrono::steady_clock::now();
+  const Hull hull = hull_of(set, {.accuracy = {.facets = 100'000}, .limits = {.max_seconds = 0.3}});
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(elapsed.count(), 3.0 * kSlower);  // alone it is about 0.7, and was 5 to 10
+  EXPECT_EQ(hull.status, HullStatus::kTimeLimit);
+  EXPECT_LE(hull.facet_count(), 100'000U);
+  EXPECT_GT(hull.facet_count(), hull.rank);
+  EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+}
+
 TEST(LimitsLaw, AStopIsFollowedByNoLongWork) {
   // Every point is a vertex: proving each plane against each point would take minutes.
   const PointSet set = sphere(100'000, 10);
