@@ -295,24 +295,26 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
     context.outer_volume_seconds = seconds_since(volume_start);
   }
 
+  input.number_as_whole(hull);
+  std::vector<TradePoint> curve;  // before anything is written: it may throw
+  if (!request.curve_path.empty()) {
+    progress.show_phase("curve");
+    hull_options.progress = nullptr;
+    hull_options.limits = limits_left(request.options.limits, start);
+    curve = trade_curve(points, hull_options, hull, seconds_since(start) - context.read_seconds);
+  }
+
   progress.show_phase("write");
   const Clock::time_point write_start = Clock::now();
-  input.number_as_whole(hull);
   write_results(request, hull, points, context.selection);
   context.write_seconds = seconds_since(write_start);
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
   if (!request.report_path.empty()) write_report(request.report_path, hull, context);
-  if (!request.curve_path.empty()) {
-    progress.show_phase("curve");
-    hull_options.progress = nullptr;
-    hull_options.limits = limits_left(request.options.limits, start);
-    write_trade_curve(curve_paths(request.curve_path),
-                      trade_curve(points, hull_options, hull, context.total_seconds - context.read_seconds),
+  if (!request.curve_path.empty())
+    write_trade_curve(curve_paths(request.curve_path), curve,
                       request.options.unit_cube ? "unit cube" : "input");
-    progress.clear();
-  }
   if (is_summary) {
     OutputFile file("-");
     file.write(hull_summary(hull, context));
