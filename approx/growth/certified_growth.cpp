@@ -39,7 +39,7 @@ Limits limits_of_growth(const HullOptions& options) {
 Gathering gathering_of(const Accuracy& accuracy) {
   if (accuracy.facets > 0) return Gathering::kCount;
   if (accuracy.width.is_set()) return Gathering::kWidth;
-  return accuracy.merges_neighbours() ? Gathering::kRule : Gathering::kNone;
+  return accuracy.merges_neighbours() ? Gathering::kRule : Gathering::kSimplices;
 }
 
 }  // namespace

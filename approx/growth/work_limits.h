@@ -13,10 +13,10 @@ namespace ndhull {
 
 /// What becomes of the simplices after growth.
 enum class Gathering {
-  kNone,   ///< they are the facets, or coplanar ones are merged
-  kRule,   ///< clusters under a rule (C, A), if there is time and memory
-  kWidth,  ///< slabs of a width, likewise
-  kCount,  ///< a number of facets, in any case
+  kSimplices,  ///< they are the facets, or coplanar ones are merged
+  kRule,       ///< clusters under a rule (C, A), if there is time and memory
+  kWidth,      ///< slabs of a width, likewise
+  kCount,      ///< a number of facets, in any case
 };
 
 /// Foresees what a hull will need after growth, from what growth needed so far.
