@@ -102,7 +102,8 @@ class CertifiedGrowth {
   double seconds_left() const {
     return options_.limits.max_seconds > 0.0 ? limits_.seconds_left() : HUGE_VAL;
   }
-  /// For coplanar merging, by what the facet table needs of the time; after a request to stop in a moment.
+  /// For coplanar merging and coverings that may be given up, by what the facet table needs of the time; after
+  /// a request to stop in a moment.
   WorkEnd end_of_merging() const;
   /// Of a step after growth that was cut short.
   void note_end(bool is_cut_short);

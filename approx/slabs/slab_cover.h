@@ -39,7 +39,7 @@ class SlabCover {
   /// Facets that are no wider than `width`, as far as the points of the space tell; a simplex that alone is
   /// wider becomes a facet all the same. The same for any number of threads. Given up, without planes, when it
   /// turns out that they would be far more than `most`: expected_facets() then says about how many. So when
-  /// `end` is there before all simplices are in some slab; these are then no fewer.
+  /// `end` comes first, where that may say too few.
   /// Cost  growing the slabs (slab_growth.h, wide_cover.h), which hold each simplex 1.5 to 5 times. 4 bytes
   ///       a row for each thread, 8 for each place in a slab.
   Covering cover(double width, const CoverEffort& effort, std::size_t most = SIZE_MAX,

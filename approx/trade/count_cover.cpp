@@ -26,10 +26,9 @@ constexpr double kNearSlab = 0.75, kTooNearSlab = 0.85;
 /// Growth goes on where slabs turn out narrower than this part of what it was meant for.
 constexpr double kCoarse = 0.75;
 /// Simplices that are covered, counted again for each covering, until what there is is taken. On wine (11-d),
-/// where each round finds more points that a facet has to have, that is 5 to 20 s.
+/// where each round finds more points that a facet has to have, that is 5 to 20 s. Rounds, likewise.
 constexpr std::uint64_t kMostCovered = 8'000'000;
-constexpr int kMostRounds = 24;  // of more points, likewise
-constexpr int kMostCoverings = 16, kMostCoveringsLate = 4;
+constexpr int kMostRounds = 24, kMostCoverings = 16, kMostCoveringsLate = 4;
 /// A covering is given up when it would have so many times the facets that are wanted: one by slabs that are
 /// far too thin takes seconds where points are left out far above them.
 constexpr std::uint64_t kFarTooMany = 8;
@@ -96,10 +95,11 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
   if (slabs) search.covered += live_count() / kDisjointQuicker;
   if (slabs && slabs->count() > (joins ? 2 * count : count)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
-  Covering covering = slabs ? covering_of(*slabs, *space_)
-                            : overlapping->cover(width, effort, limit.most, growth_.end_of_merging());
+  const WorkEnd end = growth_.end_of_merging();
+  Covering covering =
+      slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, limit.most, end);
   if (covering.planes.empty()) {
-    search.is_cut_short = growth_.end_of_merging().is_here();
+    search.is_cut_short |= end.is_here();
     return {std::max(static_cast<std::size_t>(overlapping->expected_facets()), count + 1), {}};
   }
   if (!slabs) search.covered += live_count();
