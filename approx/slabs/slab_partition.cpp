@@ -1,9 +1,9 @@
-// Idea. A slab is grown over neighbours from a seed and takes what no other slab has, so that each simplex is
-// met once; the seed's own plane is its plane, which no point is above where the hull is convex. Two things
-// keep slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And
-// seeds most of whose neighbours would be in their slab come before all others: how large a slab becomes
-// shows there already, and what was taken of it as well. Where growth was short there is time for a third:
-// the plane is turned to what is below it, and again to what the slab took, which makes room for more.
+// Idea. A slab is grown over neighbours from a seed and takes what no other slab has: each simplex is met
+// once. The seed's plane is its plane, which no point is above where the hull is convex. Two things keep
+// slabs few. Seeds near the hull's centre come first: a lower plane leaves more below the width. And seeds
+// most of whose neighbours would be in their slab come before all others: how large a slab becomes shows
+// there already, and what was taken of it as well. Where growth was short there is time for a third: the
+// plane is turned to what is below it, and again to what the slab took, which makes room for more.
 #include "approx/slabs/slab_partition.h"
 
 #include <algorithm>
@@ -25,15 +25,16 @@ constexpr std::size_t kSamples = 64;
 /// Slabs are turned to what they hold from so many simplices on, which in the end are a tenth to a quarter
 /// fewer: where growth has left out so many points, in parts of the vertices, that it saved the time for it,
 /// and where slabs are so large that it hardly takes any. A plane among many points takes longer.
-constexpr double kManyLeftOut = 0.5;
-constexpr double kTurned = 800.0, kTurnedOfSome = 250.0, kTurnedOfMany = 60.0, kLongerOfLarge = 3.0;
+constexpr double kManyLeftOut = 0.5, kLongerOfLarge = 3.0;
+constexpr double kTurned = 800.0, kTurnedOfSome = 250.0, kTurnedOfMany = 60.0;
 constexpr int kTurns = 2;
 /// Of so few slabs, as large as those turned where growth left some points out, it is better to choose among
 /// overlapping ones.
 constexpr double kFewSlabs = 100.0;
-/// Below this mean, or where most are smaller than this, slabs are found from the stars of all simplices
-/// (approx/slabs/thin_slabs.h); not of so few simplices, of which walks take no longer.
-constexpr double kThinSlabs = 16.0, kMostThin = 5.0;
+/// Below this mean, or where most are smaller than this, slabs are found from stars (thin_slabs.h), a seventh
+/// more than walks leave, in a tenth less of the whole time; not of so few simplices. From the last size on
+/// stars of two neighbours are grown on: 2 to 6 % fewer for 1 % of the time.
+constexpr double kThinSlabs = 16.0, kMostThin = 8.0, kGrownFromTwo = 5.0;
 constexpr std::size_t kFewSimplices = std::size_t{1} << 14;
 /// Of a seed's neighbours so many have to be open and in its slab before others are taken, and one more where
 /// slabs hold many simplices: looking longer costs little beside them.
@@ -376,20 +377,20 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
     if (walks) partitioner.choose_walks();
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
-    // One thread finds determinants, which will be wanted anyway, while it has the rows near.
+    // One thread finds determinants, which will be wanted, while it has the rows near.
     const bool finds_first = walks && find_determinants && !has_more_threads();
     if (finds_first) {
       find_determinants(prepare);
     } else {
       for_each_block(complex.row_count, kRowsPrepared, prepare);
     }
+    const auto grown = sizes.typical < kGrownFromTwo ? GrownStars::kOfHalf : GrownStars::kFromTwo;
     if (!walks)
-      return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, find_determinants,
-                                       partitioner.take_table());
+      return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, grown,
+                                       find_determinants, partitioner.take_table());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
     if (finds_first || !find_determinants) return partitioner.run(sizes, std::move(seeds));
-    // Slabs are one thread's work: another one finds the determinants.
-    DualFacets facets;
+    DualFacets facets;  // one thread's work: another one finds the determinants
     do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); },
               [&] { find_determinants([](std::size_t, std::size_t) {}); });
     return facets;

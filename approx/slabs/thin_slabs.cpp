@@ -40,13 +40,14 @@ template <std::size_t D>
 class ThinPartitioner {
  public:
   ThinPartitioner(const WidthSpace& space, const double* coordinates, std::span<const double> factor,
-                  PointsAbove above, double width, const FindDeterminants& find_determinants,
-                  DualFacets facets)
+                  PointsAbove above, double width, GrownStars grown,
+                  const FindDeterminants& find_determinants, DualFacets facets)
       : complex_(*facets.complex),
         coordinates_(coordinates),
         find_determinants_(find_determinants),
         planes_(complex_, space, factor, above, width),
         width_(width),
+        grows_from_(grown == GrownStars::kFromTwo ? 2 : D / 2),
         row_count_(static_cast<std::uint32_t>(complex_.row_count)),
         facets_(std::move(facets)),
         fitting_(row_count_),
@@ -66,9 +67,6 @@ class ThinPartitioner {
   }
 
  private:
-  /// Neighbours in a star from which on it is worth looking for more behind them.
-  static constexpr std::size_t kGrowsFrom = D / 2;
-
   bool is_taken(std::uint32_t row) const { return facets_.marks.is_taken(row); }
   const std::uint32_t* row_of(std::uint32_t row) const {
     return complex_.topology.data() + std::size_t{row} * 2 * D;
@@ -143,7 +141,7 @@ class ThinPartitioner {
         0, rows.size(), [&](std::size_t i) { return rows[i]; }, [](std::uint32_t) {},
         [&](std::uint32_t row) {
           prefetch(&fitting_[row]);
-          if (least >= kGrowsFrom) prefetch(plane_of(row), D);
+          if (least >= grows_from_) prefetch(plane_of(row), D);
         },
         [&](std::uint32_t row) { take_star(row, least); });
   }
@@ -185,7 +183,7 @@ class ThinPartitioner {
     const std::size_t first = member_count_;
     for (unsigned bits = fitting_[row]; bits != 0; bits &= bits - 1)
       take(row_of(row)[D + static_cast<std::size_t>(std::countr_zero(bits))]);
-    if (member_count_ - first < kGrowsFrom) return;
+    if (member_count_ - first < grows_from_) return;
     for (std::size_t i = first; i < member_count_; ++i) prefetch(row_of(facets_.members[i].value), 2 * D);
     if (!is_raised) own = planes_.own(row);
     grow(first, own);
@@ -374,6 +372,7 @@ class ThinPartitioner {
   std::span<const double> determinants_;
   SeedPlanes<D> planes_;
   double width_;
+  std::size_t grows_from_;  // neighbours in a star from which on more are looked for behind them
   std::uint32_t row_count_;
   DualFacets facets_;
   std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
@@ -388,9 +387,10 @@ class ThinPartitioner {
 
 DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
                                      std::span<const double> gradient_factor, PointsAbove above, double width,
-                                     const FindDeterminants& find_determinants, DualFacets facets) {
+                                     GrownStars grown, const FindDeterminants& find_determinants,
+                                     DualFacets facets) {
   return call_with_dimension<2, kMaxRank>(facets.complex->rank, [&](auto d) {
-    return ThinPartitioner<d>(space, coordinates, gradient_factor, above, width, find_determinants,
+    return ThinPartitioner<d>(space, coordinates, gradient_factor, above, width, grown, find_determinants,
                               std::move(facets))
         .run();
   });

@@ -16,6 +16,10 @@ namespace ndhull {
 /// blocks of all rows, by several threads, where they are computed while the rows are in cache.
 using FindDeterminants = std::function<std::span<const double>(const BlockWork& also)>;
 
+/// Stars whose slabs are grown on behind the neighbours: those of half of all neighbours and more, or of two.
+/// The second leaves fewer facets, where slabs are large enough for it.
+enum class GrownStars { kOfHalf, kFromTwo };
+
 /// `facets` with each live simplex in one facet, whose simplices are connected; no vertices are listed.
 ///
 /// Shapes  facets: of `complex`, with each row's mark, taken are the free ones alone, and room for a member
@@ -29,6 +33,7 @@ using FindDeterminants = std::function<std::span<const double>(const BlockWork& 
 ///           with all points left out for each slab tried.
 DualFacets partition_into_thin_slabs(const WidthSpace& space, const double* coordinates,
                                      std::span<const double> gradient_factor, PointsAbove above, double width,
-                                     const FindDeterminants& find_determinants, DualFacets facets);
+                                     GrownStars grown, const FindDeterminants& find_determinants,
+                                     DualFacets facets);
 
 }  // namespace ndhull

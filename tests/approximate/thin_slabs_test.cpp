@@ -42,7 +42,7 @@ struct ThinSlabs {
       open.marks.put(row, mix, !sphere.is_live(row));
     }
     return partition_into_thin_slabs(
-        space, coordinates.data(), factor, above, width,
+        space, coordinates.data(), factor, above, width, grown,
         [this](const BlockWork&) { return std::span<const double>(determinants); }, std::move(open));
   }
   DualFacets find(double width, std::size_t marked_points = 1000) const {
@@ -50,6 +50,7 @@ struct ThinSlabs {
   }
 
   GrownSphere sphere;
+  GrownStars grown = GrownStars::kOfHalf;
   std::size_t rank;
   std::vector<double> factor, determinants;
 };
@@ -90,6 +91,22 @@ TEST(ThinSlabsLaw, EachSimplexIsInOneConnectedSlab) {
       for (const double found : widths_of(slabs.sphere, facets, {})) EXPECT_LE(found, width * (1.0 + 1e-9));
       EXPECT_LE(facets.count(), last);
       last = facets.count();
+    }
+  }
+}
+
+TEST(ThinSlabsLaw, MoreStarsGrownOnLeaveFewerFacets) {
+  for (const char* words : {"400 s D6 t1", "200 s D8 t3"}) {
+    ThinSlabs slabs(words);
+    for (const double width : {0.01, 0.02, 0.04}) {
+      SCOPED_TRACE(std::string(words) + ", width " + std::to_string(width));
+      slabs.grown = GrownStars::kOfHalf;
+      const std::size_t of_half = slabs.find(width).count();
+      slabs.grown = GrownStars::kFromTwo;
+      const DualFacets facets = slabs.find(width);
+      EXPECT_TRUE(facets.all_fit);
+      for (const double found : widths_of(slabs.sphere, facets, {})) EXPECT_LE(found, width * (1.0 + 1e-9));
+      EXPECT_LT(facets.count(), of_half);
     }
   }
 }
