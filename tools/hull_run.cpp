@@ -149,9 +149,9 @@ Limits limits_left(Limits limits, Clock::time_point start) {
 /// What is done with each facet of an exact hull once there are facets, for Limits::share_afterwards.
 /// Measured in 5-d to 11-d.
 double share_afterwards(const HullRequest& request) {
-  constexpr double kText = 8.0, kBytes = 1.5, kBounding = 2.0;
+  constexpr double kText = 8.0, kBytes = 1.5, kBounding = 2.0, kSelecting = 0.5;
   if (!request.options.accuracy.is_exact()) return 0.0;
-  double share = request.selection.bounded ? kBounding : 0.0;
+  double share = request.selection.bounded ? kBounding : request.selection.is_set() ? kSelecting : 0.0;
   if (request.selection.is_set()) return share;  // few are written
   if (!request.planes_path.empty()) share += request.planes_path.ends_with(".npy") ? kBytes : kText;
   if (request.facet_list) share += kText;

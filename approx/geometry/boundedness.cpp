@@ -44,6 +44,13 @@ LpResult solve(ColumnTable& table, const VectorXd& right_side) {
   return solve_lp(lp, [&table](const LpQuery& query) { return table.price(query); });
 }
 
+/// The first row of so many each.
+RowMatrix every(Index step, const Eigen::Ref<const RowMatrix>& rows) {
+  RowMatrix part((rows.rows() + step - 1) / step, rows.cols());
+  for (Index row = 0; row < part.rows(); ++row) part.row(row) = rows.row(row * step);
+  return part;
+}
+
 /// A direction of the even normals, or of some of them, that they leave open.
 std::optional<VectorXd> open_among(const RowMatrix& rows) {
   const Index rank = rows.cols();
@@ -62,11 +69,19 @@ std::optional<VectorXd> open_among(const RowMatrix& rows) {
   return std::nullopt;
 }
 
+/// Of the first `count` rows. Of many a part is tried first: what bounds a region does so with more.
+std::optional<VectorXd> open_among_first(const RowMatrix& rows, Index count) {
+  constexpr Index kPart = 4096;
+  if (const Index step = count / kPart; step > 1 && !open_among(every(step, rows.topRows(count))))
+    return std::nullopt;
+  return open_among(rows.topRows(count));
+}
+
 /// Of the first `count` rows; all of them say what is even.
 std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
   const EvenNormals even = spread_evenly(rows);
   if (even.orthogonal) return even.orthogonal;
-  std::optional<VectorXd> direction = open_among(even.rows.topRows(count));
+  std::optional<VectorXd> direction = open_among_first(even.rows, count);
   if (direction) direction = (even.map * *direction).normalized();
   return direction;
 }
@@ -218,14 +233,14 @@ class Completion {
   std::vector<std::uint32_t> selected_;
 };
 
+/// So many normals from all over a body know its shape.
+constexpr Index kEnough = 32'768;
+
 /// The map that spreads the normals evenly; of many an even part tells. Nothing: all are orthogonal to
 /// something.
 std::optional<MatrixXd> even_map(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions) {
-  constexpr Index kEnough = 32'768;
   const auto of_each = [&](Index step) -> std::optional<MatrixXd> {
-    RowMatrix rows((normals.rows() + step - 1) / step, normals.cols());
-    for (Index row = 0; row < rows.rows(); ++row) rows.row(row) = normals.row(row * step);
-    const EvenNormals even = spread_evenly(unit_rows(rows, directions));
+    const EvenNormals even = spread_evenly(unit_rows(every(step, normals), directions));
     if (even.orthogonal) return std::nullopt;
     return even.map;
   };
@@ -253,7 +268,13 @@ Boundedness find_open_direction(std::span<const double> normals, std::size_t dim
                                 std::span<const double> equations, std::span<const double> others) {
   const MatrixXd directions = subspace_directions(dimension, equations);
   if (directions.cols() == 0) return {true, {}, 0.0};  // a point
-  const RowMatrix rows = unit_rows(as_rows(normals, dimension), directions);
+  const Eigen::Map<const RowMatrix> given = as_rows(normals, dimension);
+  if (const Index step = given.rows() / kEnough; step > 1) {
+    const RowMatrix part = every(step, given);
+    const std::span<const double> values(part.data(), static_cast<std::size_t>(part.size()));
+    if (find_open_direction(values, dimension, equations, others).bounded) return {true, {}, 0.0};
+  }
+  const RowMatrix rows = unit_rows(given, directions);
   RowMatrix all = rows;
   if (!others.empty()) {
     const RowMatrix further = unit_rows(as_rows(others, dimension), directions);

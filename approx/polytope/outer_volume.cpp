@@ -31,13 +31,6 @@ constexpr const char* kOutOfTime = "it would take longer than the limit on secon
 /// Faces of all dimensions that contain a vertex of a simple polytope.
 double faces_at_vertex(std::size_t rank) { return std::ldexp(1.0, static_cast<int>(rank)); }
 
-/// The fewest vertices of a simple polytope with so many facets (Barnette. The minimum number of vertices of
-/// a simple polytope. Israel Journal of Mathematics 10, 1971). Few outer planes of a hull are redundant.
-double fewest_vertices(std::size_t rank, std::size_t facets) {
-  const double d = static_cast<double>(rank);
-  return (d - 1.0) * static_cast<double>(facets) - (d + 1.0) * (d - 2.0);
-}
-
 /// Has the polytope of all planes more vertices than that? Tried on an even part of them, unless they are
 /// few: vertices for each plane only become more with the planes, where hardly any is redundant.
 bool seems_larger(const PlanesAboutOrigin& planes, std::uint64_t vertices, HullOptions options) {
@@ -88,25 +81,45 @@ double scale_of_outer_polytope(const Hull& hull) {
 
 }  // namespace
 
+// The fewest vertices of a simple polytope with so many facets (Barnette. The minimum number of vertices of a
+// simple polytope. Israel Journal of Mathematics 10, 1971).
+bool has_surely_more_vertices(std::size_t rank, std::size_t planes, std::uint64_t vertices) {
+  const double d = static_cast<double>(rank);
+  const double fewest = (d - 1.0) * static_cast<double>(planes) - (d + 1.0) * (d - 2.0);
+  return vertices > 0 && fewest > static_cast<double>(vertices);
+}
+
+bool takes_longer_to_begin(std::size_t rank, std::size_t planes, double max_seconds) {
+  constexpr double kSecondsPerNumber = 1e-7;
+  return max_seconds > 0.0 && kSecondsPerNumber * static_cast<double>(rank * planes) > max_seconds;
+}
+
 PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets) {
-  const Eigen::MatrixXd directions = subspace_directions(hull.dimension, hull.subspace_equations);
+  constexpr std::size_t kFacetsAtATime = 1024;
+  const Eigen::MatrixXd to_subspace =
+      subspace_directions(hull.dimension, hull.subspace_equations).transpose();
+  const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
   PlanesAboutOrigin planes;
   planes.rank = hull.rank;
-  const auto add = [&](FacetId facet) {
-    const Eigen::Map<const Eigen::VectorXd> normal(hull.normal(facet).data(),
-                                                   static_cast<Index>(hull.dimension));
-    const Eigen::VectorXd inside = directions.transpose() * normal;
-    double height = hull.outer_offset(facet) * hull.input_per_length_unit(facet) - hull.centred_offset(facet);
-    for (std::size_t k = 0; k < hull.dimension; ++k)
-      height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
-    const double length = inside.norm();
-    for (const double value : inside) planes.normals.push_back(value / length);
-    planes.heights.push_back(height / length);
-  };
-  for (const FacetId facet : facets) add(facet);
-  if (facets.empty()) {
-    for (std::uint32_t id = 0; id < hull.facet_count(); ++id) add(FacetId{id});
-  }
+  planes.normals.resize(count * hull.rank);
+  planes.heights.resize(count);
+  for_each_block(count, kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+    Eigen::VectorXd inside(static_cast<Index>(hull.rank));
+    for (std::size_t place = begin; place < end; ++place) {
+      const FacetId facet = facets.empty() ? FacetId{static_cast<std::uint32_t>(place)} : facets[place];
+      const Eigen::Map<const Eigen::VectorXd> normal(hull.normal(facet).data(),
+                                                     static_cast<Index>(hull.dimension));
+      inside.noalias() = to_subspace * normal;
+      double height =
+          hull.outer_offset(facet) * hull.input_per_length_unit(facet) - hull.centred_offset(facet);
+      for (std::size_t k = 0; k < hull.dimension; ++k)
+        height -= hull.normal(facet)[k] * (hull.interior_point[k] - hull.reference[k]);
+      const double length = inside.norm();
+      for (std::size_t k = 0; k < hull.rank; ++k)
+        planes.normals[place * hull.rank + k] = inside[static_cast<Index>(k)] / length;
+      planes.heights[place] = height / length;
+    }
+  });
   return planes;
 }
 
@@ -124,13 +137,9 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   const OuterVolume too_many{
       std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
-  if (max_simplices > 0 && fewest_vertices(hull.rank, count) > static_cast<double>(max_simplices)) {
-    return too_many;
-  }
+  if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
+  if (takes_longer_to_begin(hull.rank, count, max_seconds)) return {std::nullopt, kOutOfTime};
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
-  // A hull of so many dual points would take longer before it first looks at the clock.
-  constexpr double kToBegin = 6.0;
-  if (max_seconds > 0.0 && kToBegin * seconds_since(start) > max_seconds) return {std::nullopt, kOutOfTime};
   for (const double height : planes.heights) {
     if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
   }

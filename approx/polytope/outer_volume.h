@@ -1,6 +1,7 @@
 // How much the outer planes of a hull enclose: what an intersection of them pays for having fewer planes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,6 +16,14 @@ namespace ndhull {
 /// The certified outer planes of `facets` (none: of all facets) about the hull's interior point, in
 /// orthonormal coordinates of the subspace that the points span, input units.
 PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets);
+
+/// Has the polytope of so many planes more vertices than that (0: no limit), if hardly any is redundant? Few
+/// outer planes of a hull are.
+bool has_surely_more_vertices(std::size_t rank, std::size_t planes, std::uint64_t vertices);
+
+/// Does a hull of the dual points of so many planes take longer than that (0: no limit) before it first looks
+/// at the clock?
+bool takes_longer_to_begin(std::size_t rank, std::size_t planes, double max_seconds);
 
 /// A volume, or why there is none.
 struct OuterVolume {

@@ -85,6 +85,13 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
                              double max_seconds) {
   if (hull.rank == 0) return {0.0, 0.0, ""};
   const WorkEnd end(max_seconds, stop);
+  const OuterDistance too_many{
+      std::nullopt, 0.0,
+      "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
+  const OuterDistance out_of_time{std::nullopt, 0.0, "it would take longer than the limit on seconds"};
+  const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
+  if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
+  if (takes_longer_to_begin(hull.rank, count, max_seconds)) return out_of_time;
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   if (!find_open_direction(planes.normals, planes.rank).bounded)
     return {std::nullopt, 0.0, "the outer planes do not bound a region"};
@@ -96,12 +103,8 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
   options.stop = stop;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, 0.0, "interrupted"};
-  if (polytope.status == HullStatus::kTimeLimit)
-    return {std::nullopt, 0.0, "it would take longer than the limit on seconds"};
-  if (polytope.status != HullStatus::kComplete || !polytope.bounded) {
-    return {std::nullopt, 0.0,
-            "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
-  }
+  if (polytope.status == HullStatus::kTimeLimit) return out_of_time;
+  if (polytope.status != HullStatus::kComplete || !polytope.bounded) return too_many;
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
   const Eigen::VectorXd lengths = vertices.rowwise().norm() * (1.0 + 0x1p-50);  // their rounding
   const double vertex_work = static_cast<double>(planes.rank) * static_cast<double>(vertices.rows());

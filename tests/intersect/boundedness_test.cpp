@@ -55,6 +55,26 @@ void expect_open(const std::vector<double>& normals, std::size_t d) {
   EXPECT_NEAR(open.margin, largest_product(normals, open.direction), 1e-14);
 }
 
+// A part of them is tried first, which may lack the one that closes the rest.
+TEST(BoundednessExample, OneOfVeryManyNormalsCloses) {
+  constexpr std::size_t kDimension = 4, kCount = 100'000;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> normals(kDimension * kCount);
+  for (double& x : normals) x = normal(random);
+  EXPECT_TRUE(find_open_direction(normals, kDimension).bounded);
+  for (std::size_t row = 0; row < kCount; ++row) {
+    double& last = normals[row * kDimension + kDimension - 1];
+    last = 0.1 + std::abs(last);
+  }
+  expect_open(normals, kDimension);
+  for (const std::size_t row : {std::size_t{0}, std::size_t{1}, kCount / 2 + 1, kCount - 1}) {
+    std::vector<double> closed = normals;
+    closed[row * kDimension + kDimension - 1] = -1e3;
+    EXPECT_TRUE(find_open_direction(closed, kDimension).bounded) << row;
+  }
+}
+
 TEST(BoundednessExample, CubesNeedAllTheirSides) {
   for (std::size_t d = 1; d <= 10; ++d) {
     SCOPED_TRACE("d " + std::to_string(d));
