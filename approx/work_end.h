@@ -22,6 +22,9 @@ class WorkEnd {
   bool is_here() const { return stop_.stop_requested() || is_late(); }
   /// The deadline alone.
   bool is_late() const { return max_seconds_ > 0.0 && seconds() > max_seconds_; }
+  bool has_deadline() const { return max_seconds_ > 0.0; }
+  /// What is gone of the time that is allowed, 0 to 1; 0 without a deadline.
+  double share_of_time() const { return has_deadline() ? std::min(1.0, seconds() / max_seconds_) : 0.0; }
   /// As in Limits: 0 without a limit, else more than 0.
   double seconds_left() const { return max_seconds_ > 0.0 ? std::max(max_seconds_ - seconds(), 1e-9) : 0.0; }
   const std::stop_token& stop() const { return stop_; }

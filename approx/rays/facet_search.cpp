@@ -64,8 +64,8 @@ Eigen::MatrixXd direction_map(const Frame& frame, const std::vector<double>& sca
 
 }  // namespace
 
-FacetSearch::FacetSearch(RayShooter& shooter, std::uint64_t seed)
-    : shooter_(shooter), geometry_(shooter), random_(seed) {
+FacetSearch::FacetSearch(RayShooter& shooter, std::uint64_t seed, double max_seconds_of_facet)
+    : shooter_(shooter), geometry_(shooter, max_seconds_of_facet), random_(seed) {
   const Frame& frame = shooter.frame();
   std::vector<double> scale = extents_of(frame);
   if (is_one_unit(scale)) {
@@ -157,17 +157,17 @@ std::vector<std::uint32_t> FacetSearch::shoot(std::size_t rays, std::stop_token 
   return hit;
 }
 
-std::size_t FacetSearch::climb(std::size_t width, std::size_t most, std::stop_token stop) {
+std::size_t FacetSearch::climb(std::size_t width, std::size_t most, const WorkEnd& end) {
   std::vector<std::uint32_t> from;
   for (const std::uint32_t id : largest(width)) {
     if (!facets_[id].is_climbed_from && from.size() < most) from.push_back(id);
   }
-  climb_from(from, stop);
+  climb_from(from, end);
   return from.size();
 }
 
 std::vector<std::uint32_t> FacetSearch::ascend(std::span<const std::uint32_t> from, std::size_t most,
-                                               std::stop_token stop) {
+                                               const WorkEnd& end) {
   std::vector<std::uint32_t> fresh, next;
   for (const std::uint32_t id : from) {
     if (facets_[id].is_climbed_from) continue;
@@ -177,7 +177,7 @@ std::vector<std::uint32_t> FacetSearch::ascend(std::span<const std::uint32_t> fr
       next.push_back(id);
     }
   }
-  climb_from(fresh, stop);
+  climb_from(fresh, end);
   for (const std::uint32_t id : from) {
     std::uint32_t best = id;
     for (const std::uint32_t neighbour : neighbours_[id]) {
@@ -190,7 +190,7 @@ std::vector<std::uint32_t> FacetSearch::ascend(std::span<const std::uint32_t> fr
   return next;
 }
 
-void FacetSearch::climb_from(std::span<const std::uint32_t> from, std::stop_token stop) {
+void FacetSearch::climb_from(std::span<const std::uint32_t> from, const WorkEnd& end) {
   std::vector<WalkTask> tasks;
   std::vector<std::size_t> ends;
   std::vector<std::vector<WalkTask>> ridges(from.size());
@@ -209,8 +209,16 @@ void FacetSearch::climb_from(std::span<const std::uint32_t> from, std::stop_toke
     for (WalkTask& task : some) tasks.push_back(std::move(task));
     ends.push_back(tasks.size());
   }
-  const std::vector<WalkResult> walks = shooter_.walk(tasks, stop);
-  const std::vector<std::uint32_t> ids = enter(walks);
+  std::vector<std::uint32_t> ids;
+  for (std::size_t first = 0; first < tasks.size() && !(first > 0 && end.is_late());) {
+    const std::size_t count = walks_at_once_.at_once(tasks.size() - first, end);
+    std::vector<std::uint32_t> met;
+    walks_at_once_.look_at(
+        end, [&] { met = enter(shooter_.walk(std::span(tasks).subspan(first, count), end.stop())); });
+    ids.insert(ids.end(), met.begin(), met.end());
+    first += count;
+  }
+  ids.resize(tasks.size(), kNone);
   std::size_t row = 0;
   for (std::size_t one = 0; one < from.size(); ++one) {
     facets_[from[one]].is_climbed_from = true;

@@ -9,8 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "approx/rays/pace.h"
 #include "approx/rays/ray_facets.h"
 #include "approx/rays/ray_shooting.h"
+#include "approx/work_end.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
@@ -37,8 +39,9 @@ struct FoundFacet {
 /// Facets found so far, and what finds more.
 class FacetSearch {
  public:
-  /// Precondition: shooter.frame().rank >= 2. The shooter must outlive the search.
-  FacetSearch(RayShooter& shooter, std::uint64_t seed);
+  /// Precondition: shooter.frame().rank >= 2. The shooter must outlive the search. `max_seconds_of_facet`: as
+  /// FacetGeometry's.
+  FacetSearch(RayShooter& shooter, std::uint64_t seed, double max_seconds_of_facet = 0.0);
 
   DirectionUnit direction_unit() const { return direction_unit_; }
 
@@ -46,13 +49,14 @@ class FacetSearch {
   /// Returns the facets that were hit, each once, in order.
   std::vector<std::uint32_t> shoot(std::size_t rays, std::stop_token stop);
   /// Walks over the ridges of the largest facets, among the `width` largest, that were not climbed from.
-  /// At most `most` of them. Returns how many it were: 0 when all are done.
-  std::size_t climb(std::size_t width, std::size_t most, std::stop_token stop);
+  /// At most `most` of them; of the last one not all ridges where a deadline comes. Returns how many it were:
+  /// 0 when all are done.
+  std::size_t climb(std::size_t width, std::size_t most, const WorkEnd& end);
   /// One step of steepest ascent from each facet: over its ridges, to the largest neighbour. Returns the
   /// neighbours that are larger, each once, in order; ascents that reached their top are left out, and those
   /// that `most` leaves no room for stay where they are.
   std::vector<std::uint32_t> ascend(std::span<const std::uint32_t> from, std::size_t most,
-                                    std::stop_token stop);
+                                    const WorkEnd& end);
   /// Adds the facet that a ray in frame coordinates hits. False when the walk was left open.
   bool add_hit_by(const std::vector<double>& direction, std::uint32_t& facet);
 
@@ -74,13 +78,14 @@ class FacetSearch {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+  static constexpr std::size_t kWalksAtOnce = 4096;
 
   std::vector<double> random_direction();
   std::uint32_t find(std::span<const std::uint32_t> points) const;
   /// The facets of walks, in order; kNone for those left open. New ones are added.
   std::vector<std::uint32_t> enter(std::span<const WalkResult> walks);
   std::vector<std::uint32_t> vertices_of(std::uint32_t facet) const;
-  void climb_from(std::span<const std::uint32_t> from, std::stop_token stop);
+  void climb_from(std::span<const std::uint32_t> from, const WorkEnd& end);
   void lead(std::uint32_t facet, std::uint32_t ray);
 
   RayShooter& shooter_;
@@ -95,6 +100,7 @@ class FacetSearch {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> facets_of_hash_;  // looked up only
   std::vector<std::vector<std::uint32_t>> neighbours_;                            // of facets climbed from
   std::vector<std::vector<std::uint32_t>> vertices_;  // of facets with more than rank points
+  Pace walks_at_once_{kWalksAtOnce};  // over ridges: facets with many points take a tenth of a second each
   std::uint64_t rays_ = 0, open_rays_ = 0, climbs_ = 0;
 };
 

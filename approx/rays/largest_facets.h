@@ -69,7 +69,8 @@ struct LargestFacet {
   double outer_offset = 0.0;  ///< [distance] >= 0: no input point is further above
   double inner_offset = 0.0;  ///< [distance] <= 0: none of its vertices is further below
   double area = 0.0;          ///< [area]
-  bool area_is_whole = true;  ///< false: of a part of the points on its plane
+  bool area_is_whole =
+      true;  ///< false: of a part of the points on its plane, which are too many for the time
   std::vector<PointId> vertices;
   FacetOrigin origin = FacetOrigin::kHull;
   std::uint64_t hits = 0;   ///< rays

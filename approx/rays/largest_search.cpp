@@ -37,8 +37,10 @@ constexpr std::size_t kFacetsPerClimb = 128;
 constexpr double kMostWork = 6e11;
 /// [multiply-adds] What a walk costs beside its products: factoring the basis, areas.
 constexpr double kWorkPerWalk = 4000.0;
-/// Rays at once where time is limited.
-constexpr std::uint64_t kRaysWithinTime = 64;
+/// Rays between two looks at the clock: facets with thousands of points take some hundredths of a second each.
+constexpr std::size_t kMostRaysAtOnce = 64;
+/// Of the time that is allowed one facet may take so much: its area is that of a part then.
+constexpr double kShareOfFacet = 1.0 / 32.0;
 /// Directions in which planes may be open, and facets that close them, before it is given up.
 constexpr std::size_t kMostBounding = 1000;
 /// So many coincidences among the first rays tell how many facets there are; fewer tell nothing.
@@ -50,8 +52,10 @@ LargestSearch::LargestSearch(RayShooter& shooter, const LargestOptions& options,
                              std::chrono::steady_clock::time_point start)
     : shooter_(shooter),
       options_(options),
-      start_(start),
-      search_(shooter, options.seed),
+      end_(options.max_seconds, options.stop, start),
+      search_(shooter, options.seed, kShareOfFacet * options.max_seconds),
+      rays_at_once_(kMostRaysAtOnce),
+      climbs_at_once_(kFacetsPerClimb),
       width_(std::max(kLeastWidth, kWidthPerFacet * options.count)) {
   const std::size_t rank = shooter.frame().rank;
   if (rank > kMaxRayRank) {
@@ -59,11 +63,6 @@ LargestSearch::LargestSearch(RayShooter& shooter, const LargestOptions& options,
                 "points span " + std::to_string(rank) + " dimensions, expected at most " +
                     std::to_string(kMaxRayRank) + "; project them to fewer, or take ndhull extreme");
   }
-}
-
-bool LargestSearch::is_time_over() const {
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return options_.max_seconds > 0.0 && seconds > options_.max_seconds;
 }
 
 double LargestSearch::work() const {
@@ -74,13 +73,13 @@ double LargestSearch::work() const {
 }
 
 void LargestSearch::shoot(std::uint64_t rays) {
-  // With a limit on time a few at once: facets with thousands of points take some hundredths of a second
-  // each.
-  const std::uint64_t at_once = options_.max_seconds > 0.0 ? kRaysWithinTime : rays;
   hit_.clear();
-  for (std::uint64_t shot = 0; shot < rays && !(shot > 0 && is_time_over()); shot += at_once) {
-    const std::vector<std::uint32_t> hit = search_.shoot(std::min(at_once, rays - shot), options_.stop);
+  for (std::uint64_t shot = 0; shot < rays && !(shot > 0 && end_.is_late());) {
+    const std::size_t count = rays_at_once_.at_once(rays - shot, end_);
+    std::vector<std::uint32_t> hit;
+    rays_at_once_.look_at(end_, [&] { hit = search_.shoot(count, options_.stop); });
     hit_.insert(hit_.end(), hit.begin(), hit.end());
+    shot += count;
   }
   std::sort(hit_.begin(), hit_.end());
   hit_.erase(std::unique(hit_.begin(), hit_.end()), hit_.end());
@@ -108,8 +107,11 @@ bool LargestSearch::may_be_built(std::uint64_t most_facets) const {
 void LargestSearch::climb(double most_work) {
   const double before = work();
   all_climbed_ = false;
-  while (work() - before < most_work && !options_.stop.stop_requested() && !is_time_over()) {
-    if (search_.climb(width_, kFacetsPerClimb, options_.stop) == 0) {
+  while (work() - before < most_work && !end_.is_here()) {
+    std::size_t climbed = 0;
+    climbs_at_once_.look_at(
+        end_, [&] { climbed = search_.climb(width_, climbs_at_once_.at_once(kFacetsPerClimb, end_), end_); });
+    if (climbed == 0) {
       all_climbed_ = true;
       return;
     }
@@ -131,8 +133,9 @@ void LargestSearch::ascend(double most_work) {
     from.resize(static_cast<std::size_t>(kAscents));
     std::sort(from.begin(), from.end());
   }
-  while (!from.empty() && work() - before < most_work && !options_.stop.stop_requested() && !is_time_over()) {
-    from = search_.ascend(from, kFacetsPerClimb, options_.stop);
+  while (!from.empty() && work() - before < most_work && !end_.is_here()) {
+    climbs_at_once_.look_at(
+        end_, [&] { from = search_.ascend(from, climbs_at_once_.at_once(kFacetsPerClimb, end_), end_); });
   }
 }
 
@@ -156,7 +159,7 @@ bool LargestSearch::is_over(std::size_t stable_rounds) {
     return true;
   };
   if (options_.stop.stop_requested()) return ends(LargestStatus::kInterrupted);
-  if (is_time_over()) return ends(LargestStatus::kTimeLimit);
+  if (end_.is_late()) return ends(LargestStatus::kTimeLimit);
   if (options_.rays > 0) return rays >= options_.rays && ends(LargestStatus::kRayLimit);
   if (rays >= kLeastRays && stable_rounds >= kStableRounds && recall_estimate() >= kGoodRecall) {
     return ends(LargestStatus::kStable);

@@ -8,7 +8,9 @@
 
 #include "approx/rays/facet_search.h"
 #include "approx/rays/largest_facets.h"
+#include "approx/rays/pace.h"
 #include "approx/rays/ray_shooting.h"
+#include "approx/work_end.h"
 
 namespace ndhull {
 
@@ -39,12 +41,12 @@ class LargestSearch {
   double recall_estimate() const;
   RaySample describe_sample() const;
   LargestFacet describe(std::uint32_t id) const;
-  bool is_time_over() const;
 
   RayShooter& shooter_;
   const LargestOptions& options_;
-  std::chrono::steady_clock::time_point start_;
+  WorkEnd end_;
   FacetSearch search_;
+  Pace rays_at_once_, climbs_at_once_;
   std::size_t width_;               // the facets that are climbed from are among so many largest
   std::vector<std::uint32_t> hit_;  // by the last rays
   std::vector<std::uint32_t> largest_, bounding_;

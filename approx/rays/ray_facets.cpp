@@ -39,7 +39,8 @@ struct FacetGeometry::InPlane {
   Hull hull;
 };
 
-FacetGeometry::FacetGeometry(const RayShooter& shooter) : shooter_(shooter) {
+FacetGeometry::FacetGeometry(const RayShooter& shooter, double max_seconds)
+    : shooter_(shooter), max_seconds_(max_seconds) {
   const ScaledRatio scale = volume_scale(shooter.frame());
   volume_scale_ = std::ldexp(scale.ratio, scale.exponent);
   const Frame& frame = shooter.frame();
@@ -63,6 +64,7 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   result.coordinates.assign(within.data(), within.data() + within.size());
   HullOptions options;
   options.limits.max_facets = kMaxSimplicesInPlane;
+  options.limits.max_seconds = max_seconds_;
   options.certifies_planes = false;  // those of ridges are not used
   options.threads = static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
   result.hull = convex_hull(
@@ -124,6 +126,7 @@ std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
   if (rank - 1 > kMaxRank) return walks;
   const InPlane within = project(facet);
   const Hull& hull = within.hull;
+  if (hull.status == HullStatus::kTimeLimit) return walks;
   if (hull.rank + 1 < rank || hull.rank < 2) {
     // A segment: each end is a ridge.
     if (hull.rank + 1 < rank || hull.vertices.size() != 2) return walks;

@@ -16,15 +16,16 @@ struct RayFacet {
   std::vector<std::uint32_t> vertices;  ///< those that are vertices of the facet, ascending
   std::vector<double> plane;            ///< a with a.y = 1 on the facet, frame
   double area = 0.0;                    ///< [area, input units]
-  /// False where points on one plane are too many, or their dimension too high, for their hull: then `area`
-  /// is that of a part, and not all points are known to be vertices.
+  /// False where points on one plane are too many, or their dimension too high, or time too short, for their
+  /// hull: then `area` is that of a part, and not all vertices are known.
   bool area_is_whole = true;
 };
 
 /// Turns walks into facets. Safe to call from several threads.
 class FacetGeometry {
  public:
-  explicit FacetGeometry(const RayShooter& shooter);
+  /// `max_seconds`: of one facet, 0: none. Areas are those of a part then.
+  explicit FacetGeometry(const RayShooter& shooter, double max_seconds = 0.0);
 
   /// The facet through all the points on a plane. Simplices that share a plane are one facet: its points'
   /// hull within the plane has the area.
@@ -37,8 +38,8 @@ class FacetGeometry {
   /// a with a.y = 1 on the points, in the frame, by least squares.
   std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;
 
-  /// Walks over the ridges of a facet; of very many, over the largest ones. Of a simplex
-  /// points and vertices are enough.
+  /// Walks over the ridges of a facet; of very many, over the largest ones; none where time was too short. Of a
+  /// simplex points and vertices are enough.
   std::vector<WalkTask> ridge_walks(const RayFacet& facet) const;
 
  private:
@@ -47,6 +48,7 @@ class FacetGeometry {
   InPlane project(const RayFacet& facet) const;
 
   const RayShooter& shooter_;
+  double max_seconds_;
   double volume_scale_ = 0.0;  // frame volume per input volume
   // rank x dimension: a plane times this is its normal in input units, of length one over its height.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> to_input_;

@@ -216,6 +216,23 @@ TEST(LargestFacetsExample, AStopRequestLeavesAnAnswer) {
   EXPECT_TRUE(found.facets.empty());
 }
 
+// Some thousand simplices each: all areas take seconds.
+TEST(LargestFacetsLaw, FacetsOfManyPointsHaveAreasOfPartsWhereTimeIsShort) {
+  PointSet set = family_points(PointFamily::kCube, 90, 12, 5);
+  for (double& x : set.coordinates) x = x < 0.0 ? 0.0 : 1.0;
+  const LargestFacets found =
+      largest_facets(set.view(), {.count = 1000, .method = LargestMethod::kRays, .max_seconds = 0.3});
+  EXPECT_EQ(found.status, LargestStatus::kTimeLimit);
+  ASSERT_GT(found.facets.size(), 0u);
+  expect_certified(found, set);
+  std::size_t parts = 0;
+  for (const LargestFacet& facet : found.facets) {
+    EXPECT_GT(facet.area, 0.0);
+    parts += facet.area_is_whole ? 0u : 1u;
+  }
+  EXPECT_GT(parts, 0u);
+}
+
 TEST(LargestFacetsExample, TooManyDimensionsAreAnError) {
   const PointSet set = family_points(PointFamily::kGaussian, 100, 65, 1);
   try {
