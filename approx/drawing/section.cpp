@@ -73,6 +73,10 @@ CentredFacets centred_facets(const Hull& hull) {
   facets.dimension = hull.dimension;
   facets.centre = hull.interior_point;
   facets.subspace_equations = hull.subspace_equations;
+  facets.normals.reserve(hull.facet_count() * hull.dimension);
+  for (std::vector<double>* values :
+       {&facets.heights, &facets.outer, &facets.inner, &facets.widths, &facets.areas})
+    values->reserve(hull.facet_count());
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
     const FacetId facet{row};
     const std::span<const double> normal = hull.normal(facet);
@@ -95,6 +99,9 @@ Shell bounded_by_planes(std::span<const double> normals, std::span<const double>
                         std::size_t dimension) {
   PlanesAboutOrigin planes{dimension, {}, {}};
   std::vector<std::uint32_t> sources;
+  planes.normals.reserve(normals.size());
+  planes.heights.reserve(heights.size());
+  sources.reserve(heights.size());
   for (std::uint32_t plane = 0; plane < heights.size(); ++plane) {
     const std::span<const double> normal = normals.subspan(plane * dimension, dimension);
     const double length = std::sqrt(dot(normal, normal));
@@ -155,6 +162,8 @@ std::optional<Shell> shell_of_points(const PointView& points) {
 std::optional<Shell> section_shell(const CentredFacets& facets, const DrawingAxes& axes, ShellKind kind) {
   const std::vector<double>& offsets = kind == ShellKind::kOuter ? facets.outer : facets.inner;
   std::vector<double> normals, heights;
+  normals.reserve(facets.size() * axes.count());
+  heights.reserve(facets.size());
   for (std::size_t facet = 0; facet < facets.size(); ++facet) {
     heights.push_back(facets.heights[facet] + offsets[facet]);
     if (heights.back() < kLeastHeight * facets.heights[facet]) return std::nullopt;

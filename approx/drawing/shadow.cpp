@@ -10,7 +10,9 @@
 #include <numeric>
 
 #include "approx/geometry/subspace.h"
-#include "core/linear/column_simplex.h"
+#include "core/linear/column_table.h"
+#include "core/linear/dense_views.h"
+#include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {
@@ -18,12 +20,13 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// [ratio] An outer polytope this close to the hull needs no sharper bound: on a page both are one line.
 constexpr double kCloseRatio = 1e-4;
+constexpr std::size_t kFacetsAtATime = 4096;
 
 /// The outer polytope's reach in directions of the drawing.
 class OuterReach {
  public:
   OuterReach(const CentredFacets& facets, const PointView& points, std::span<const PointId> vertices)
-      : facets_(facets), scales_(Eigen::VectorXd::Zero(rows())) {
+      : facets_(facets), scales_(Eigen::VectorXd::Zero(rows())), poles_(facets.dimension, facets.size()) {
     // Rows in units of the data's own extent: the simplex method's tolerances are relative to 1.
     for (const PointId vertex : vertices) {
       for (std::size_t k = 0; k < facets.dimension; ++k) {
@@ -31,24 +34,26 @@ class OuterReach {
         scale = std::max(scale, std::abs(points.at(vertex.value, k) - facets.centre[k]));
       }
     }
-    poles_.resize(rows(), static_cast<Eigen::Index>(facets.size()));
-    for (std::size_t facet = 0; facet < facets.size(); ++facet) {
-      const Eigen::Map<const Eigen::VectorXd> normal(facets.normal(facet).data(), rows());
-      poles_.col(static_cast<Eigen::Index>(facet)) =
-          normal.cwiseProduct(scales_) / (facets.heights[facet] + facets.outer[facet]);
-    }
+    for_each_block(facets.size(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
+      Eigen::VectorXd pole(rows());
+      for (std::size_t facet = begin; facet < end; ++facet) {
+        const Eigen::Map<const Eigen::VectorXd> normal(facets.normal(facet).data(), rows());
+        pole = normal.cwiseProduct(scales_) / (facets.heights[facet] + facets.outer[facet]);
+        poles_.set(facet, as_span(pole), 1.0);
+      }
+    });
     directions_ = subspace_directions(facets.dimension, facets.subspace_equations);
   }
 
   /// An upper bound of direction . (z - centre) over the outer polytope, infinite when none was found.
-  double operator()(const Eigen::VectorXd& direction) const {
+  double operator()(const Eigen::VectorXd& direction) {
     // Across the subspace of flat points nothing reaches anywhere.
     Eigen::VectorXd rhs = directions_ * (directions_.transpose() * direction);
     rhs = rhs.cwiseProduct(scales_);
     const double length = rhs.norm();
     if (length == 0.0) return 0.0;
     rhs /= length;
-    ColumnSimplex program({rhs.data(), static_cast<std::size_t>(rhs.size())});
+    ColumnSimplex program(as_span(rhs));
     const LpResult result = solve_lp(program, [this](const LpQuery& query) { return best_column(query); });
     const bool is_feasible = result.status == LpStatus::kOptimal ||
                              (result.status == LpStatus::kStalled && result.infeasibility == 0.0);
@@ -58,18 +63,35 @@ class OuterReach {
  private:
   Eigen::Index rows() const { return static_cast<Eigen::Index>(facets_.dimension); }
 
-  std::optional<LpColumn> best_column(const LpQuery& query) const {
-    const Eigen::Map<const Eigen::VectorXd> duals(query.duals.data(), rows());
-    Eigen::Index best = 0;
-    (poles_.transpose() * duals).maxCoeff(&best);
-    return LpColumn{LpColumnId{static_cast<std::uint32_t>(best)},
-                    1.0,
-                    {poles_.col(best).data(), static_cast<std::size_t>(rows())}};
+  /// Faces of the shadow beside each other are reached by the same facets: those that came in before are tried
+  /// first, all others where none of these improves.
+  std::optional<LpColumn> best_column(const LpQuery& query) {
+    constexpr double kImproves = 1e-9;
+    std::vector<double> multipliers(query.duals.begin(), query.duals.end());
+    multipliers.push_back(-query.cost_weight);
+    std::size_t best = 0;
+    double product = kImproves;
+    for (std::size_t place = 0; place < known_.size(); ++place) {
+      const double here = std::inner_product(multipliers.begin(), multipliers.end(),
+                                             known_values_.data() + place * multipliers.size(), 0.0);
+      if (here > product) {
+        product = here;
+        best = known_[place];
+      }
+    }
+    if (product > kImproves) return poles_.column(best);
+    const LpColumn column = poles_.column(poles_.largest_product(multipliers).column);
+    known_.push_back(column.id.value);
+    known_values_.insert(known_values_.end(), column.entries.begin(), column.entries.end());
+    known_values_.push_back(column.cost);
+    return column;
   }
 
   const CentredFacets& facets_;
   Eigen::VectorXd scales_;
-  Eigen::MatrixXd poles_;  // a column a facet
+  ColumnTable poles_;  // a column a facet, cost 1
+  std::vector<std::size_t> known_;
+  std::vector<double> known_values_;  // as in poles_, one after the other
   Eigen::MatrixXd directions_;
 };
 
@@ -102,14 +124,15 @@ std::vector<double> coordinates_along(const DrawingAxes& axes, const PointView& 
 }
 
 std::optional<Shadow> hull_shadow(const CentredFacets& facets, const PointView& points,
-                                  std::span<const PointId> vertices, const DrawingAxes& axes) {
+                                  std::span<const PointId> vertices, const DrawingAxes& axes,
+                                  const WorkEnd& end) {
   const std::vector<double> projected = coordinates_along(axes, points, vertices);
   std::optional<Shell> inner =
       shell_of_points(PointView::row_major(projected.data(), vertices.size(), axes.count()));
   if (!inner.has_value()) return std::nullopt;
   const double ratio = outer_ratio(facets);
   std::optional<OuterReach> reach;
-  if (ratio - 1.0 > kCloseRatio) reach.emplace(facets, points, vertices);
+  if (ratio - 1.0 > kCloseRatio && !end.is_here()) reach.emplace(facets, points, vertices);
   const auto dimension = static_cast<Eigen::Index>(axes.dimension);
   const Eigen::Map<const Eigen::MatrixXd> measures(axes.measures.data(), dimension,
                                                    static_cast<Eigen::Index>(axes.count()));
@@ -122,7 +145,7 @@ std::optional<Shadow> hull_shadow(const CentredFacets& facets, const PointView& 
                                                    static_cast<Eigen::Index>(axes.count()));
     normals.insert(normals.end(), normal.begin(), normal.end());
     double outer = ratio * height;
-    if (reach.has_value()) outer = std::min(outer, (*reach)(measures * normal));
+    if (reach.has_value() && !end.is_here()) outer = std::min(outer, (*reach)(measures * normal));
     heights.push_back(std::max(outer, height));
     shadow.margins.push_back(heights.back() / height - 1.0);
   }

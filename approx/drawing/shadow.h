@@ -7,6 +7,7 @@
 
 #include "approx/drawing/drawing_axes.h"
 #include "approx/drawing/section.h"
+#include "approx/work_end.h"
 #include "core/ids.h"
 #include "core/points.h"
 
@@ -25,12 +26,13 @@ struct Shadow {
 /// inner     is exact up to rounding.
 /// outer     one plane parallel to each face of `inner`, where a linear program says that the outer polytope
 ///           reaches, up to rounding; at most `outer_ratio` times the face's own distance. None when neither
-///           is finite.
-/// Cost      O(facets dimension) for each pivot of one program for each face of `inner`; no program when
-///           outer_ratio tells that nothing would be seen.
+///           is finite. When `end` has come that multiple is taken for the other faces.
+/// Cost      O(facets dimension) for each facet that reaches furthest in one program for each face of `inner`,
+///           and once a face; no program when outer_ratio tells that nothing would be seen.
 /// Returns   none when the projected vertices span fewer dimensions than there are axes.
 std::optional<Shadow> hull_shadow(const CentredFacets& facets, const PointView& points,
-                                  std::span<const PointId> vertices, const DrawingAxes& axes);
+                                  std::span<const PointId> vertices, const DrawingAxes& axes,
+                                  const WorkEnd& end = {});
 
 /// [ratio] The outer polytope lies in the hull scaled about the centre by this; infinite when an inner plane
 /// is not above the centre.

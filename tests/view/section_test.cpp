@@ -212,6 +212,14 @@ TEST(ShadowLaw, OuterHoldsEveryPointAndIsNoFurtherThanTheRatioSays) {
     }
     // The program is what makes it sharp: somewhere the scaled hull is beaten clearly.
     EXPECT_LT(*std::min_element(shadow->margins.begin(), shadow->margins.end()), 0.9 * most);
+    // A deadline that has passed: the scaled hull is all that is known.
+    std::stop_source stop;
+    stop.request_stop();
+    const std::optional<Shadow> late =
+        hull_shadow(facets, set.view(), hull.vertices, axes, WorkEnd(0.0, stop.get_token()));
+    ASSERT_TRUE(late.has_value() && late->outer.has_value());
+    EXPECT_LE(excess(*shadow->outer, *late->outer), 1e-12);
+    for (const double margin : late->margins) EXPECT_NEAR(margin, most, 1e-12 * (1.0 + most));
   }
 }
 

@@ -88,8 +88,8 @@ ViewWish wish_of(const ViewArguments& arguments, const ViewedHull& viewed) {
   return wish;
 }
 
-/// The hull to draw; sets the exit code to that of an interrupted run when it was one.
-ViewedHull load(const ViewArguments& arguments, int& exit_code) {
+/// The hull to draw.
+ViewedHull load(const ViewArguments& arguments, Interrupt& interrupt) {
   FileBytes bytes = FileBytes::read(arguments.source_path);
   if (is_report(bytes, arguments.source_path)) {
     if (arguments.columns.is_all()) return read_report(bytes, arguments.source_path);
@@ -97,29 +97,39 @@ ViewedHull load(const ViewArguments& arguments, int& exit_code) {
                                                "expected points; leave the option out",
                                                display_name(arguments.source_path)));
   }
-  Interrupt interrupt;
   ProgressLine progress(false, false);  // on a terminal only
   PointFile points = parse_points(std::move(bytes), arguments.source_path, arguments.columns);
   HullOptions options = arguments.hull.complete();
   options.stop = interrupt.token();
   options.limits.machine_memory_bytes = memory_of_machine();
+  if (options.accuracy.is_exact()) {
+    // What is drawn of its facets takes as much memory again, and more time than growth took for them.
+    constexpr double kDrawing = 2.0;
+    options.limits.max_memory_bytes /= 2;
+    options.limits.share_afterwards = kDrawing;
+  }
   if (progress.is_shown()) options.progress = [&progress](const Progress& now) { progress.show(now); };
   interrupt.arm();
   const Hull hull = convex_hull(points.view(), options);
-  if (interrupt.requested()) exit_code = kInterruptedExitCode;
   return viewed_hull(hull, std::move(points));
 }
 
 void write_picture(const ViewArguments& arguments, int& exit_code) {
+  constexpr double kShareOfTime = 0.9;  // the rest is for drawing and writing
+  const WorkEnd::Clock::time_point start = WorkEnd::Clock::now();
+  Interrupt interrupt;
   const bool html = is_html(arguments.output_path);
   check_outputs_are_writable({{"--output", arguments.output_path}}, {arguments.source_path});
   // Opened first: that it cannot be written is said before the hull is computed.
   OutputFile file(arguments.output_path);
-  ViewedHull viewed = load(arguments, exit_code);
+  ViewedHull viewed = load(arguments, interrupt);
   if (arguments.names.has_value()) rename_columns(*arguments.names, viewed);
-  const Scene scene = make_scene(viewed, wish_of(arguments, viewed));
+  ViewWish wish = wish_of(arguments, viewed);
+  wish.end = WorkEnd(kShareOfTime * arguments.hull.complete().limits.max_seconds, interrupt.token(), start);
+  const Scene scene = make_scene(viewed, wish);
   file.write(html ? scene_html(scene) : scene_svg(scene));
   file.commit();
+  if (interrupt.requested()) exit_code = kInterruptedExitCode;
 }
 
 void add_picture_options(CLI::App& command, ViewArguments& arguments) {

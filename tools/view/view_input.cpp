@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
 
 #include "core/error.h"
 
@@ -142,7 +143,10 @@ void append_facet(const nlohmann::json& facet, const std::vector<double>& refere
   viewed.facet_vertices.begin.push_back(static_cast<std::uint32_t>(viewed.facet_vertices.values.size()));
 }
 
-[[noreturn]] void fail_report(const std::string& path, const char* reason) {
+/// Without the name of the JSON library's exception, which stands in brackets before it.
+[[noreturn]] void fail_report(const std::string& path, std::string_view reason) {
+  const std::size_t end = reason.find("] ");
+  if (reason.starts_with('[') && end != std::string_view::npos) reason.remove_prefix(end + 2);
   throw Error(ErrorCode::kBadHeader,
               fmt::format("{}: found JSON that is no report ({}), expected what `ndhull hull --report FILE "
                           "--facet-list` writes; write it again, or view the points",
@@ -207,6 +211,8 @@ ViewedHull viewed_hull(const Hull& hull, PointFile points) {
   viewed.facets = centred_facets(hull);
   viewed.vertices = hull.vertices;
   viewed.extents = hull.unit_cube_extents();
+  viewed.facet_vertices.begin.reserve(hull.facet_count() + 1);
+  viewed.facet_vertices.values.reserve(hull.facet_count() * hull.rank);
   for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
     for (const PointId vertex : hull.vertices_of(FacetId{row})) {
       viewed.facet_vertices.values.push_back(vertex.value);

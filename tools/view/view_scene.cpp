@@ -79,7 +79,8 @@ bool shells_coincide(const CentredFacets& facets) {
 Shells shells_of(const ViewedHull& viewed, const ViewWish& wish, const DrawingAxes& axes, Scene& scene) {
   Shells shells;
   if (wish.kind == ViewKind::kShadow) {
-    std::optional<Shadow> shadow = hull_shadow(viewed.facets, viewed.points.view(), viewed.vertices, axes);
+    std::optional<Shadow> shadow =
+        hull_shadow(viewed.facets, viewed.points.view(), viewed.vertices, axes, wish.end);
     if (!shadow.has_value()) {
       throw Error(ErrorCode::kUsage,
                   "--axes: found a shadow that is flat along these axes, expected one with "

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "approx/drawing/projection.h"
+#include "approx/work_end.h"
 #include "tools/view/view_input.h"
 #include "tools/view/view_scale.h"
 
@@ -22,6 +23,7 @@ struct ViewWish {
   ViewKind kind = ViewKind::kSection;
   std::vector<std::size_t> columns;  ///< from 0; empty: principal components
   std::size_t highlight = 5;         ///< facets of largest area that are marked
+  WorkEnd end = {};                  ///< of what only makes the picture sharper
 };
 
 struct SceneFace {
