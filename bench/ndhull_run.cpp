@@ -65,7 +65,8 @@ HullRun run_ndhull(const BenchInput& input, const HullOptions& options, bool wit
                 {"phase_seconds", std::move(phases)},
                 {"detail_seconds", std::move(details)}};
   if (with_outer_volume) {
-    const OuterVolume outer = outer_volume(hull, {}, affordable_simplices(hull), options.threads);
+    const OuterVolume outer =
+        outer_volume(hull, {}, {.max_facets = affordable_simplices(hull)}, options.threads);
     if (outer.volume) run.detail["outer_volume"] = *outer.volume;
   }
   return run;

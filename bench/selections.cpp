@@ -44,7 +44,7 @@ constexpr Target kTargets[] = {{"200 s D5 t1", "C0.01", 555, 0.032},
                                {"400 D5 t1", "W0.1 C0.01", 375, 0.042}};
 
 double volume_below(const Hull& hull, const std::vector<FacetId>& facets) {
-  const OuterVolume outer = outer_volume(hull, facets, 0, 1);
+  const OuterVolume outer = outer_volume(hull, facets, {}, 1);
   if (!outer.volume) throw std::runtime_error("the outer planes enclose no volume: " + outer.reason);
   return *outer.volume;
 }

@@ -171,6 +171,17 @@ double seconds_for_measure(const Limits& limits, Clock::time_point start) {
   return kShare * seconds_left(limits, start);
 }
 
+/// For what the outer polytope measures: little beside the hull, or what was asked for within all limits.
+Limits limits_for_measure(const HullRequest& request, const Hull& hull, Clock::time_point start) {
+  const Limits& limits = request.options.limits;
+  Limits left{.max_facets = request.outer_volume ? 0 : affordable_simplices(hull, limits),
+              .max_seconds = seconds_for_measure(limits, start)};
+  const std::uint64_t bytes = resident_memory_bytes();
+  if (limits.max_memory_bytes > 0)
+    left.max_memory_bytes = limits.max_memory_bytes > bytes ? limits.max_memory_bytes - bytes : 1;
+  return left;
+}
+
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
 OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context,
                             Clock::time_point start) {
@@ -181,9 +192,8 @@ OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const 
     if (!context.selection->bounded) return {std::nullopt, "the outer planes do not bound a region"};
     facets = context.selection->facets;
   }
-  const std::uint64_t limit = request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
-  return outer_volume(hull, facets, limit, context.options.threads, context.options.stop,
-                      seconds_for_measure(request.options.limits, start));
+  return outer_volume(hull, facets, limits_for_measure(request, hull, start), context.options.threads,
+                      context.options.stop);
 }
 
 void write_report(const std::string& path, const Hull& hull, const ReportContext& context) {
@@ -283,12 +293,10 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
     arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });
     context.outer_volume = &*outer;
     if (selection && selection->bounded) {
-      const std::uint64_t limit =
-          request.outer_volume ? 0 : affordable_simplices(hull, request.options.limits);
       arena.execute([&] {
         outer_reach =
-            outer_distance(hull, points, selection->facets, limit, context.options.threads,
-                           context.options.stop, seconds_for_measure(request.options.limits, start));
+            outer_distance(hull, points, selection->facets, limits_for_measure(request, hull, start),
+                           context.options.threads, context.options.stop);
       });
       context.outer_distance = &*outer_reach;
     }

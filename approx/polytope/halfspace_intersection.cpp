@@ -170,12 +170,15 @@ class Intersector {
     result_.non_redundant = std::move(vertices.non_redundant);
     result_.max_residual = vertices.max_residual;
     result_.vertex_seconds = seconds_since(start);
+    result_.measure_status = polytope.status;
     if (!options_.measure || polytope.status != HullStatus::kComplete) return;
     start = Clock::now();
     HullOptions within;
     within.limits.max_seconds = end_.seconds_left();
+    within.limits.max_memory_bytes = options_.limits.max_memory_bytes;
     within.stop = options_.stop;
     const PolytopeMeasure measure = measure_polytope(planes, polytope, within);
+    result_.measure_status = measure.status;
     if (measure.status == HullStatus::kComplete) {
       result_.volume = measure.volume;
       result_.area = measure.area;

@@ -81,6 +81,8 @@ struct HalfspaceIntersection {
 
   std::optional<double> volume;  ///< of dimension rank; none: no double, or too much memory
   std::optional<double> area;    ///< of all facets, of dimension rank - 1
+  HullStatus measure_status =
+      HullStatus::kComplete;  ///< the limit that volume and area were not found within
   double region_seconds = 0.0, dual_hull_seconds = 0.0, vertex_seconds = 0.0, measure_seconds = 0.0;
 
   std::size_t vertex_count() const { return dimension == 0 ? 0 : vertices.size() / dimension; }

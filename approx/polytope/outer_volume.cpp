@@ -27,9 +27,7 @@ constexpr double kAffordableSeconds = 0.01;
 constexpr double kAffordableShare = 0.2;
 
 constexpr const char* kOutOfTime = "it would take longer than the limit on seconds";
-
-/// Faces of all dimensions that contain a vertex of a simple polytope.
-double faces_at_vertex(std::size_t rank) { return std::ldexp(1.0, static_cast<int>(rank)); }
+constexpr const char* kOutOfMemory = "it would take more memory than there is for it";
 
 /// Has the polytope of all planes more vertices than that? Tried on an even part of them, unless they are
 /// few: vertices for each plane only become more with the planes, where hardly any is redundant.
@@ -123,8 +121,8 @@ PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const 
   return planes;
 }
 
-OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
-                         unsigned threads, const std::stop_token& stop, double max_seconds) {
+OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, const Limits& limits,
+                         unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, ""};
   const Clock::time_point start = Clock::now();
   constexpr double kNarrow = 1.0 + 1e-10;
@@ -134,11 +132,12 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
   const OuterVolume beyond{std::nullopt, "it is beyond the range of doubles"};
   if (scale <= kNarrow) return is_in_range(most) ? OuterVolume{most, ""} : beyond;
+  const std::uint64_t max_simplices = limits.max_facets;
   const OuterVolume too_many{
       std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
   if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
-  if (takes_longer_to_begin(hull.rank, count, max_seconds)) return {std::nullopt, kOutOfTime};
+  if (takes_longer_to_begin(hull.rank, count, limits.max_seconds)) return {std::nullopt, kOutOfTime};
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   for (const double height : planes.heights) {
     if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
@@ -148,11 +147,12 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   }
   HullOptions options;
   options.wants_partial = false;
-  options.limits.max_facets = max_simplices;
+  options.limits = limits;
   options.threads = threads;
   options.stop = stop;
   const auto spend_time = [&] {
-    if (max_seconds > 0.0) options.limits.max_seconds = std::max(max_seconds - seconds_since(start), 1e-9);
+    if (limits.max_seconds > 0.0)
+      options.limits.max_seconds = std::max(limits.max_seconds - seconds_since(start), 1e-9);
   };
   spend_time();
   if (max_simplices > 0 && seems_larger(planes, max_simplices, options)) return too_many;
@@ -160,13 +160,14 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
   if (polytope.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
+  if (polytope.status == HullStatus::kMemoryLimit) return {std::nullopt, kOutOfMemory};
   if (polytope.status != HullStatus::kComplete) return too_many;
   if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
   spend_time();
   const PolytopeMeasure measure = measure_polytope(planes, polytope, options, false);
   if (measure.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
   if (measure.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
-  if (measure.status != HullStatus::kComplete) return too_many;
+  if (measure.status != HullStatus::kComplete) return {std::nullopt, kOutOfMemory};
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
   const double volume = std::max(hull.volume, std::min(most, measure.volume));
   return is_in_range(volume) ? OuterVolume{volume, ""} : beyond;
@@ -174,12 +175,12 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std:
 
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits) {
   const double growth = kSecondsPerCreated * static_cast<double>(hull.statistics.created_simplices);
-  const double faces = faces_at_vertex(hull.rank);
+  const double faces = std::ldexp(1.0, static_cast<int>(hull.rank));  // of all dimensions, at a vertex
   double simplices = std::max(kAffordableSeconds, kAffordableShare * growth) /
                      (kSecondsPerSimplex + kSecondsPerFace * faces);
   if (limits.max_memory_bytes > 0) {
-    // Of the faces and, as with growth, the tables of the dual hull.
-    const double bytes = 8.0 * faces + 32.0 * static_cast<double>(hull.rank);
+    // As with growth, the tables of the dual hull as well.
+    const double bytes = bytes_of_measure(hull.rank, 1) + 32.0 * static_cast<double>(hull.rank);
     simplices = std::min(simplices, static_cast<double>(limits.max_memory_bytes) / bytes);
   }
   return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(simplices));

@@ -34,18 +34,18 @@ struct OuterVolume {
 /// Volume of the polytope below the certified outer planes of `facets` (none: of all facets), about the
 /// hull's interior point; inside the affine subspace when the hull is flat.
 ///
-/// Returns   no volume when the planes do not bound a region, when it has more than about max_simplices
-///           vertices (its vertices as simplices of the dual hull; 0: no limit), after a request to stop, or
-///           when it would take longer than max_seconds (0: no limit).
+/// Returns   no volume when the planes do not bound a region, when it has more than about limits.max_facets
+///           vertices (its vertices as simplices of the dual hull), after a request to stop, or when it would
+///           take longer, or more memory, than limits say.
 /// Error     as measure_polytope's.
 /// Cost      of all facets of an exact hull O(facets dimension): its own volume, raised by what the widths
-///           allow. Else the dual hull, then the faces of all dimensions; memory some 2^rank times 8 bytes a
-///           vertex. Planes too many for max_simplices vertices cost nothing.
+///           allow. Else the dual hull, then the faces of all dimensions; memory some 2^rank times 20 bytes a
+///           vertex. Planes too many for max_facets vertices cost nothing.
 /// Threads   the result does not depend on their number.
-OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, std::uint64_t max_simplices,
-                         unsigned threads = 0, const std::stop_token& stop = {}, double max_seconds = 0.0);
+OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, const Limits& limits = {},
+                         unsigned threads = 0, const std::stop_token& stop = {});
 
-/// A max_simplices with which the volume costs at most about 0.01 s or a fifth of the hull's growth,
+/// A max_facets with which the volume costs at most about 0.01 s or a fifth of the hull's growth,
 /// whichever is more, and no more memory than limits.max_memory_bytes. The same for the same hull on every
 /// machine.
 std::uint64_t affordable_simplices(const Hull& hull, const Limits& limits = {});

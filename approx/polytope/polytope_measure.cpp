@@ -258,7 +258,8 @@ std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePoly
   const std::size_t vertices = polytope.vertex_count(rank), simplices = polytope.vertex_of.size();
   if (rank < 2 || simplices < kSimplicesOfVertex * vertices) return std::nullopt;
   HullOptions options;
-  options.limits = {.max_facets = simplices, .max_seconds = limits.limits.max_seconds};
+  options.limits = limits.limits;
+  options.limits.max_facets = simplices;
   options.stop = limits.stop;
   const Hull hull = convex_hull(PointView::row_major(polytope.vertices.data(), vertices, rank), options);
   if (hull.status != HullStatus::kComplete || hull.rank < rank) return std::nullopt;
@@ -267,11 +268,19 @@ std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePoly
 
 }  // namespace
 
+double bytes_of_measure(std::size_t rank, std::size_t simplices) {
+  constexpr double kBytesOfFace = 20.0;
+  return std::ldexp(kBytesOfFace, static_cast<int>(rank)) * static_cast<double>(simplices);
+}
+
 PolytopeMeasure measure_polytope(const PlanesAboutOrigin& planes, const PlanePolytope& polytope,
                                  const HullOptions& options, bool wants_area) {
   NDHULL_CHECK(polytope.bounded);
   const WorkEnd end(options.limits.max_seconds, options.stop);
   if (const auto measure = measure_by_hull(planes.rank, polytope, options)) return *measure;
+  const double bytes = bytes_of_measure(planes.rank, polytope.vertex_of.size());
+  if (options.limits.max_memory_bytes > 0 && bytes > static_cast<double>(options.limits.max_memory_bytes))
+    return {HullStatus::kMemoryLimit, 0.0, 0.0};
   const FaceLevels levels(planes, polytope, end);
   const auto measured = [&](const std::vector<double>& vertices, const std::vector<double>& normals) {
     return measure_faces(planes.rank, polytope, levels, vertices, normals);

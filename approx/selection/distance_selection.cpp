@@ -90,9 +90,8 @@ class DistanceChoice {
     if (!highest) return {HUGE_VAL, HUGE_VAL};
     std::optional<double> distance;
     if (points_ != nullptr) {
-      distance = outer_distance(hull_, *points_, sorted_facets(ids), kMostSimplices, 1, end_.stop(),
-                                end_.seconds_left())
-                     .distance;
+      const Limits limits{.max_facets = kMostSimplices, .max_seconds = end_.seconds_left()};
+      distance = outer_distance(hull_, *points_, sorted_facets(ids), limits, 1, end_.stop()).distance;
     }
     return {distance.value_or(HUGE_VAL), highest->height};
   }

@@ -81,29 +81,31 @@ std::vector<double> most_by_gauges(const Hull& hull, const Eigen::Map<const RowM
 }  // namespace
 
 OuterDistance outer_distance(const Hull& hull, const PointView& points, std::span<const FacetId> facets,
-                             std::uint64_t max_simplices, unsigned threads, const std::stop_token& stop,
-                             double max_seconds) {
+                             const Limits& limits, unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, 0.0, ""};
-  const WorkEnd end(max_seconds, stop);
+  const WorkEnd end(limits.max_seconds, stop);
+  const std::uint64_t max_simplices = limits.max_facets;
   const OuterDistance too_many{
       std::nullopt, 0.0,
       "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
   const OuterDistance out_of_time{std::nullopt, 0.0, "it would take longer than the limit on seconds"};
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
   if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
-  if (takes_longer_to_begin(hull.rank, count, max_seconds)) return out_of_time;
+  if (takes_longer_to_begin(hull.rank, count, limits.max_seconds)) return out_of_time;
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   if (!find_open_direction(planes.normals, planes.rank).bounded)
     return {std::nullopt, 0.0, "the outer planes do not bound a region"};
   HullOptions options;
   options.wants_partial = false;
-  options.limits.max_facets = max_simplices;
+  options.limits = limits;
   options.limits.max_seconds = end.seconds_left();
   options.threads = threads;
   options.stop = stop;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
   if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, 0.0, "interrupted"};
   if (polytope.status == HullStatus::kTimeLimit) return out_of_time;
+  if (polytope.status == HullStatus::kMemoryLimit)
+    return {std::nullopt, 0.0, "it would take more memory than there is for it"};
   if (polytope.status != HullStatus::kComplete || !polytope.bounded) return too_many;
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
   const Eigen::VectorXd lengths = vertices.rowwise().norm() * (1.0 + 0x1p-50);  // their rounding

@@ -30,15 +30,15 @@ struct OuterDistance {
 ///          the hull are looked for (approx/geometry/hull_distance.h), of each until it is no further than
 ///          the furthest so far, until no other vertex can be further. Gauges are products with all facets:
 ///          found where these are fewer than eight times the hull's vertices. When time is up, or what
-///          max_simplices allows, the bound of the rest is taken. Rounding of the vertices themselves is not
+///          limits.max_facets allows, the bound of the rest is taken. Rounding of the vertices themselves is not
 ///          part of the bounds.
-/// Returns  no distance where outer_volume has no volume or would not in max_seconds (0: no limit), and with
-///          max_simplices when that would take more than 5e8 multiplications.
+/// Returns  no distance where outer_volume has no volume, and with limits.max_facets when that would take more
+///          than 5e8 multiplications.
 /// Cost     as outer_volume, and for each of its vertices rank x the hull's facets or eight times its
 ///          vertices, whichever is less, multiplications.
 OuterDistance outer_distance(const Hull& hull, const PointView& points, std::span<const FacetId> facets,
-                             std::uint64_t max_simplices, unsigned threads = 0,
-                             const std::stop_token& stop = {}, double max_seconds = 0.0);
+                             const Limits& limits = {}, unsigned threads = 0,
+                             const std::stop_token& stop = {});
 
 /// Chooses `count` facets such that no vertex of the polytope below their outer planes is far above the
 /// hull's facets; it is bounded.

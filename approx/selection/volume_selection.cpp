@@ -132,8 +132,8 @@ class VolumeChoice {
     for (const Ids& choice : choices) {
       if (end_.is_here()) break;
       const std::vector<FacetId> facets = facets_of(choice);
-      const OuterVolume outer =
-          outer_volume(hull_, facets, kMostVertices, 1, end_.stop(), end_.seconds_left());
+      const Limits limits{.max_facets = kMostVertices, .max_seconds = end_.seconds_left()};
+      const OuterVolume outer = outer_volume(hull_, facets, limits, 1, end_.stop());
       if (!outer.volume || (least && *least <= *outer.volume)) continue;
       least = outer.volume;
       best = facets;

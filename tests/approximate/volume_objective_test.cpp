@@ -19,7 +19,7 @@ HullOptions for_volume(std::uint64_t facets) {
 }
 
 double excess(const Hull& hull) {
-  const OuterVolume outer = outer_volume(hull, {}, 0, 1);
+  const OuterVolume outer = outer_volume(hull, {}, {}, 1);
   EXPECT_TRUE(outer.volume) << outer.reason;
   return outer.volume.value_or(0.0) / hull.volume - 1.0;
 }

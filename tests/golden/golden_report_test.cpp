@@ -67,7 +67,7 @@ void expect_golden(const std::string& name, const PointSet& set, HullOptions opt
   context.options = options;
   context.facet_list = facet_list;
   const Hull hull = convex_hull(set.view(), options);
-  const OuterVolume outer = outer_volume(hull, {}, 100'000);
+  const OuterVolume outer = outer_volume(hull, {}, {.max_facets = 100'000});
   context.outer_volume = &outer;
   const Json report = without_the_run(Json::parse(hull_report_json(hull, context)));
   const std::string path = name + ".json";

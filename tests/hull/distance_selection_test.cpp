@@ -20,7 +20,7 @@ namespace ndhull {
 namespace {
 
 double reach(const Hull& hull, const PointSet& points, std::span<const FacetId> facets) {
-  const OuterDistance outer = outer_distance(hull, points.view(), facets, 0, 1);
+  const OuterDistance outer = outer_distance(hull, points.view(), facets, {}, 1);
   EXPECT_TRUE(outer.distance) << outer.reason;
   EXPECT_LE(outer.lower, outer.distance.value_or(0.0));
   return outer.distance.value_or(0.0);
@@ -42,7 +42,7 @@ TEST(OuterDistance, OfATriangleAroundAHexagonIsHalfTheRootOfThree) {
   const Hull hull = hull_of(points);
   const std::vector<FacetId> chosen = choose_for_distance(hull, 3);
   ASSERT_EQ(chosen.size(), 3U);
-  const OuterDistance outer = outer_distance(hull, points.view(), chosen, 0, 1);
+  const OuterDistance outer = outer_distance(hull, points.view(), chosen, {}, 1);
   EXPECT_NEAR(outer.distance.value(), 0.5 * std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(outer.lower, 0.5 * std::sqrt(3.0), 1e-12);
   EXPECT_LE(reach(hull, points, {}), 1e-12);
@@ -68,7 +68,7 @@ TEST(OuterDistance, AnOpenSelectionHasNone) {
   const PointSet points = hexagon();
   const Hull hull = hull_of(points);
   const std::vector<FacetId> two{FacetId{0}, FacetId{1}};
-  EXPECT_FALSE(outer_distance(hull, points.view(), two, 0, 1).distance);
+  EXPECT_FALSE(outer_distance(hull, points.view(), two, {}, 1).distance);
 }
 
 // Few of very many facets, whose vertices are all looked at, and many of few vertices, whose gauges come

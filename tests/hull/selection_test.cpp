@@ -160,7 +160,7 @@ TEST(SelectionLaw, FewLargestFacetsAreCompletedToARegion) {
         }
       }
       EXPECT_TRUE(find_open_direction(normals_of(hull, closed.facets), 5).bounded);
-      const OuterVolume outer = outer_volume(hull, closed.facets, 1'000'000);
+      const OuterVolume outer = outer_volume(hull, closed.facets, {.max_facets = 1'000'000});
       ASSERT_TRUE(outer.volume) << outer.reason;
       EXPECT_GT(*outer.volume, hull.volume);
     }

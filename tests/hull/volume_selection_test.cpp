@@ -20,7 +20,7 @@ namespace ndhull {
 namespace {
 
 double enclosed(const Hull& hull, const std::vector<FacetId>& facets) {
-  const OuterVolume outer = outer_volume(hull, facets, 0, 1);
+  const OuterVolume outer = outer_volume(hull, facets, {}, 1);
   EXPECT_TRUE(outer.volume) << outer.reason;
   return outer.volume.value_or(0.0);
 }
@@ -154,7 +154,7 @@ TEST(VolumeSelectionLaw, HardInputIsEnclosed) {
       for (std::size_t left_out = 0; chosen.facets.size() > count && left_out <= count; ++left_out) {
         std::vector<FacetId> fewer = chosen.facets;
         fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
-        EXPECT_EQ(outer_volume(hull, fewer, 0, 1).reason, "the outer planes do not bound a region");
+        EXPECT_EQ(outer_volume(hull, fewer, {}, 1).reason, "the outer planes do not bound a region");
       }
     }
   }

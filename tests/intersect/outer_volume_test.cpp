@@ -23,7 +23,7 @@ std::vector<FacetId> all_facets(const Hull& hull) {
 /// The hull's own volume, found both ways.
 void expect_own_volume(const Hull& hull) {
   for (const std::vector<FacetId>& facets : {std::vector<FacetId>(), all_facets(hull)}) {
-    const OuterVolume outer = outer_volume(hull, facets, kMany);
+    const OuterVolume outer = outer_volume(hull, facets, {.max_facets = kMany});
     ASSERT_TRUE(outer.volume) << outer.reason;
     EXPECT_GE(*outer.volume, hull.volume * (1.0 - 1e-12));
     EXPECT_NEAR(*outer.volume, hull.volume, 1e-11 * hull.volume);
@@ -34,7 +34,7 @@ TEST(OuterVolumeExample, OfUnitCubesIsOne) {
   for (std::size_t d = 1; d <= 8; ++d) {
     PointSet corners = cube(d).points;
     for (double& value : corners.coordinates) value = 0.5 + 0.5 * value;
-    const OuterVolume outer = outer_volume(hull_of(corners), {}, kMany);
+    const OuterVolume outer = outer_volume(hull_of(corners), {}, {.max_facets = kMany});
     ASSERT_TRUE(outer.volume) << "d " << d << ": " << outer.reason;
     EXPECT_NEAR(*outer.volume, 1.0, 1e-11) << "d " << d;
   }
@@ -70,7 +70,7 @@ TEST(OuterVolumeLaw, OfThinPlatesIsTheirVolume) {
       for (std::size_t k = 0; k < d * d; ++k)
         plate.coordinates[d * d + k] = plate.coordinates[k] + 1e-8 * plate.coordinates[d * d + k];
       const Hull hull = hull_of(plate);
-      EXPECT_NEAR(outer_volume(hull, all_facets(hull), kMany).volume.value(), hull.volume,
+      EXPECT_NEAR(outer_volume(hull, all_facets(hull), {.max_facets = kMany}).volume.value(), hull.volume,
                   1e-5 * hull.volume);
     }
   }
@@ -119,11 +119,11 @@ TEST(OuterVolumeExample, OfSomeSidesOfARotatedCube) {
   const Hull hull = hull_of(rotated(cube(4).points, 3));
   std::vector<FacetId> sides;
   for (std::uint32_t id = 0; id < 7; ++id) sides.push_back(FacetId{id});
-  const OuterVolume open = outer_volume(hull, sides, kMany);
+  const OuterVolume open = outer_volume(hull, sides, {.max_facets = kMany});
   EXPECT_FALSE(open.volume);
   EXPECT_EQ(open.reason, "the outer planes do not bound a region");
   sides.push_back(FacetId{7});
-  EXPECT_NEAR(outer_volume(hull, sides, kMany).volume.value(), 16.0, 1e-10);
+  EXPECT_NEAR(outer_volume(hull, sides, {.max_facets = kMany}).volume.value(), 16.0, 1e-10);
 }
 
 TEST(OuterVolumeExample, FewerPlanesEncloseMore) {
@@ -135,7 +135,7 @@ TEST(OuterVolumeExample, FewerPlanesEncloseMore) {
     planes.clear();
     for (std::uint32_t id = 0; id < hull.facet_count(); id += static_cast<std::uint32_t>(step))
       planes.push_back(FacetId{id});
-    const OuterVolume outer = outer_volume(hull, planes, kMany);
+    const OuterVolume outer = outer_volume(hull, planes, {.max_facets = kMany});
     ASSERT_TRUE(outer.volume) << outer.reason;
     EXPECT_GT(*outer.volume, last);
     last = *outer.volume;
@@ -145,7 +145,7 @@ TEST(OuterVolumeExample, FewerPlanesEncloseMore) {
 
 TEST(OuterVolumeExample, TooManyVerticesAreAReason) {
   const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
-  const OuterVolume outer = outer_volume(hull, all_facets(hull), 100);
+  const OuterVolume outer = outer_volume(hull, all_facets(hull), {.max_facets = 100});
   EXPECT_FALSE(outer.volume);
   EXPECT_NE(outer.reason.find("more than about 100 vertices"), std::string::npos) << outer.reason;
 }
@@ -164,7 +164,7 @@ TEST(OuterVolumeLaw, OfPrismsIsTheirVolume) {
       }
     }
     const Hull hull = hull_of(prism);
-    const OuterVolume outer = outer_volume(hull, {}, kMany);
+    const OuterVolume outer = outer_volume(hull, {}, {.max_facets = kMany});
     ASSERT_TRUE(outer.volume) << outer.reason;
     EXPECT_NEAR(*outer.volume, hull.volume, 1e-11 * hull.volume);
     EXPECT_NEAR(hull.volume, hull_of(base).volume, 1e-11 * hull.volume);
@@ -173,26 +173,36 @@ TEST(OuterVolumeLaw, OfPrismsIsTheirVolume) {
 
 TEST(OuterVolumeExample, WithoutALimitThereIsAlwaysAVolume) {
   const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
-  const OuterVolume one = outer_volume(hull, all_facets(hull), 0, 1);
+  const OuterVolume one = outer_volume(hull, all_facets(hull), {}, 1);
   EXPECT_NEAR(one.volume.value(), hull.volume, 1e-11 * hull.volume);
-  EXPECT_EQ(outer_volume(hull, all_facets(hull), 0, 3).volume, one.volume);
+  EXPECT_EQ(outer_volume(hull, all_facets(hull), {}, 3).volume, one.volume);
 }
 
 TEST(OuterVolumeExample, ARequestToStopIsAReason) {
   const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
   std::stop_source source;
   source.request_stop();
-  const OuterVolume outer = outer_volume(hull, all_facets(hull), 0, 1, source.get_token());
+  const OuterVolume outer = outer_volume(hull, all_facets(hull), {}, 1, source.get_token());
   EXPECT_FALSE(outer.volume);
   EXPECT_EQ(outer.reason, "interrupted");
 }
 
 TEST(OuterVolumeExample, TheLimitOnSecondsIsAReason) {
   const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
-  const OuterVolume outer = outer_volume(hull, all_facets(hull), 0, 1, {}, 1e-9);
+  const OuterVolume outer = outer_volume(hull, all_facets(hull), {.max_seconds = 1e-9}, 1);
   EXPECT_FALSE(outer.volume);
   EXPECT_EQ(outer.reason, "it would take longer than the limit on seconds");
-  EXPECT_TRUE(outer_volume(hull, all_facets(hull), 0, 1, {}, 100.0).volume);
+  EXPECT_TRUE(outer_volume(hull, all_facets(hull), {.max_seconds = 100.0}, 1).volume);
+}
+
+TEST(OuterVolumeExample, TheLimitOnMemoryIsAReason) {
+  const Hull hull = hull_of(family_points(PointFamily::kSphere, 60, 5, 2));
+  for (const std::uint64_t bytes : {1u, 200'000u}) {
+    const OuterVolume outer = outer_volume(hull, all_facets(hull), {.max_memory_bytes = bytes}, 1);
+    EXPECT_FALSE(outer.volume);
+    EXPECT_EQ(outer.reason, "it would take more memory than there is for it");
+  }
+  EXPECT_TRUE(outer_volume(hull, all_facets(hull), {.max_memory_bytes = 1'000'000'000}, 1).volume);
 }
 
 TEST(OuterVolumeExample, MeasuringEndsWithTheLimitToo) {

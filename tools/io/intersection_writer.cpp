@@ -221,7 +221,11 @@ std::string intersection_summary(const HalfspaceIntersection& intersection, cons
   if (!has_vertices) return text;
   text += fmt::format("vertices    {}\n", intersection.vertex_count());
   text += fmt::format("bounding    {} halfspaces are not redundant\n", intersection.non_redundant.size());
-  if (intersection.volume) text += fmt::format("volume      {:.10g}\n", *intersection.volume);
+  if (intersection.volume) {
+    text += fmt::format("volume      {:.10g}\n", *intersection.volume);
+  } else if (intersection.measure_status != HullStatus::kComplete) {
+    text += fmt::format("volume      none: {}\n", to_string(intersection.measure_status));
+  }
   if (intersection.area) text += fmt::format("area        {:.10g}\n", *intersection.area);
   text += fmt::format("residual    {:.3g}: the furthest vertex from a plane it is on\n",
                       intersection.max_residual);
@@ -262,6 +266,8 @@ std::string intersection_report(const HalfspaceIntersection& intersection,
     report["vertices"] = intersection.vertex_count();
     report["non_redundant"] = intersection.non_redundant;
     report["volume"] = intersection.volume ? Json(*intersection.volume) : Json(nullptr);
+    if (!intersection.volume && intersection.measure_status != HullStatus::kComplete)
+      report["volume_reason"] = to_string(intersection.measure_status);
     report["area"] = intersection.area ? Json(*intersection.area) : Json(nullptr);
     report["max_residual"] = intersection.max_residual;
   }
