@@ -33,6 +33,14 @@ std::string describe_outer_volume(const OuterVolume& outer, const Hull& hull) {
                      power_of_unit(hull.rank));
 }
 
+/// Of a target that was missed: by how much, and why.
+std::string describe_miss(const Hull& hull, const HullOptions& options) {
+  const double asked = hull.chosen.width_asked;
+  if (!options.accuracy.width.is_set() || hull.max_facet_width <= asked) return "";
+  return fmt::format("; {:.3g} was asked for{}", asked,
+                     hull.status == HullStatus::kComplete ? ", which is less than rounding" : "");
+}
+
 }  // namespace
 
 std::string hull_summary(const Hull& hull, const ReportContext& context) {
@@ -60,7 +68,8 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
     text += describe_size("volume", hull.volume, power_of_unit(hull.rank));
     if (context.outer_volume != nullptr) text += describe_outer_volume(*context.outer_volume, hull);
     if (hull.rank > 1) text += describe_size("area", hull.area, power_of_unit(hull.rank - 1));
-    text += fmt::format("width     {:.3g} {}: the widest facet, certified\n", hull.max_facet_width, unit);
+    text += fmt::format("width     {:.3g} {}: the widest facet, certified{}\n", hull.max_facet_width, unit,
+                        describe_miss(hull, context.options));
     text += fmt::format("roundoff  {:.3g} {}\n", hull.roundoff, unit);
   }
   if (hull.status != HullStatus::kComplete) {
