@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "tools/command_line/byte_count.h"
 #include "tools/command_line/summary_text.h"
@@ -45,10 +46,12 @@ std::string largest_summary(const LargestFacets& found, const LargestReportConte
     if (found.rank > 1) {  // the facets of a segment are its two ends, which are counted
       text += fmt::format("areas     {:.6g} to {:.6g} {}\n", found.facets.front().area,
                           found.facets[found.largest_count - 1].area, power_of_unit(found.rank - 1));
-      const auto parts = std::ranges::count(found.facets, false, &LargestFacet::area_is_whole);
+      const auto parts = std::ranges::count(std::span(found.facets).first(found.largest_count), false,
+                                            &LargestFacet::area_is_whole);
       if (parts > 0)
-        text += fmt::format("parts     of {} facets the area is that of a part: they have too many points\n",
-                            grouped(static_cast<std::uint64_t>(parts)));
+        text += fmt::format(
+            "parts     of {} facets the area is that of a part: too many points, or too little time\n",
+            grouped(static_cast<std::uint64_t>(parts)));
     }
     double width = 0.0;
     for (const LargestFacet& facet : found.facets) {

@@ -26,7 +26,10 @@ constexpr std::size_t kFacetsAtATime = 4096;
 class OuterReach {
  public:
   OuterReach(const CentredFacets& facets, const PointView& points, std::span<const PointId> vertices)
-      : facets_(facets), scales_(Eigen::VectorXd::Zero(rows())), poles_(facets.dimension, facets.size()) {
+      : facets_(facets),
+        scales_(Eigen::VectorXd::Zero(rows())),
+        poles_(facets.dimension, facets.size()),
+        is_known_(facets.size(), false) {
     // Rows in units of the data's own extent: the simplex method's tolerances are relative to 1.
     for (const PointId vertex : vertices) {
       for (std::size_t k = 0; k < facets.dimension; ++k) {
@@ -64,32 +67,39 @@ class OuterReach {
   Eigen::Index rows() const { return static_cast<Eigen::Index>(facets_.dimension); }
 
   /// Faces of the shadow beside each other are reached by the same facets: those that came in before are tried
-  /// first, all others where none of these improves.
+  /// first, all others where none of these improves by more than rounding.
   std::optional<LpColumn> best_column(const LpQuery& query) {
-    constexpr double kImproves = 1e-9;
+    constexpr double kRounding = 1e-7;  // in parts of the terms
     std::vector<double> multipliers(query.duals.begin(), query.duals.end());
     multipliers.push_back(-query.cost_weight);
     std::size_t best = 0;
-    double product = kImproves;
+    double largest = 0.0;
     for (std::size_t place = 0; place < known_.size(); ++place) {
-      const double here = std::inner_product(multipliers.begin(), multipliers.end(),
-                                             known_values_.data() + place * multipliers.size(), 0.0);
-      if (here > product) {
-        product = here;
-        best = known_[place];
+      const double* const values = known_values_.data() + place * multipliers.size();
+      double product = 0.0, size = 0.0;
+      for (std::size_t k = 0; k < multipliers.size(); ++k) {
+        product += multipliers[k] * values[k];
+        size += std::abs(multipliers[k] * values[k]);
       }
+      if (product <= largest || product <= kRounding * size) continue;
+      largest = product;
+      best = known_[place];
     }
-    if (product > kImproves) return poles_.column(best);
+    if (largest > 0.0) return poles_.column(best);
     const LpColumn column = poles_.column(poles_.largest_product(multipliers).column);
-    known_.push_back(column.id.value);
-    known_values_.insert(known_values_.end(), column.entries.begin(), column.entries.end());
-    known_values_.push_back(column.cost);
+    if (!is_known_[column.id.value]) {
+      is_known_[column.id.value] = true;
+      known_.push_back(column.id.value);
+      known_values_.insert(known_values_.end(), column.entries.begin(), column.entries.end());
+      known_values_.push_back(column.cost);
+    }
     return column;
   }
 
   const CentredFacets& facets_;
   Eigen::VectorXd scales_;
   ColumnTable poles_;  // a column a facet, cost 1
+  std::vector<bool> is_known_;
   std::vector<std::size_t> known_;
   std::vector<double> known_values_;  // as in poles_, one after the other
   Eigen::MatrixXd directions_;

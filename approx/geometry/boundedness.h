@@ -28,7 +28,8 @@ struct Boundedness {
 /// Others  normals of further planes of the same body: the map spreads these and `normals` evenly. Without
 ///         them the map of a few planes of a merged cube makes their rounding as long as the rest: they would
 ///         bound a region 1e13 times the cube.
-/// Limit   Normals that after the map reach less than 1e-10 far in some direction count as open.
+/// Limit   Normals that after the map reach less than 1e-10 far in some direction count as open. Of more than
+///         65,536 an even part says what is even, as in complete_to_bounded, unless it leaves a direction open.
 /// Cost    rank + 1 linear programs with rank rows and a column for each normal; of many normals that bound a
 ///         region mostly for some thousand of them.
 Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,

@@ -154,7 +154,7 @@ class Intersector {
     }
     PlanePolytope polytope = intersect_about_origin(planes, dual_options(options_, end_));
     result_.dual_hull_seconds = seconds_since(start);
-    result_.status = polytope.status;
+    result_.status = result_.measure_status = polytope.status;
     if (!polytope.bounded) {
       if (polytope.status != HullStatus::kComplete) return;  // so few planes that nothing is bounded yet
       throw too_long_a_region();
@@ -170,7 +170,6 @@ class Intersector {
     result_.non_redundant = std::move(vertices.non_redundant);
     result_.max_residual = vertices.max_residual;
     result_.vertex_seconds = seconds_since(start);
-    result_.measure_status = polytope.status;
     if (!options_.measure || polytope.status != HullStatus::kComplete) return;
     start = Clock::now();
     HullOptions within;

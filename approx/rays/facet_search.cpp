@@ -195,6 +195,7 @@ void FacetSearch::climb_from(std::span<const std::uint32_t> from, const WorkEnd&
   std::vector<std::size_t> ends;
   std::vector<std::vector<WalkTask>> ridges(from.size());
   for_each_block(from.size(), 1, [&](std::size_t row, std::size_t) {
+    if (end.is_late()) return;
     const auto points = points_of(from[row]);
     if (points.size() == shooter_.frame().rank) {
       RayFacet simplex;
@@ -206,18 +207,20 @@ void FacetSearch::climb_from(std::span<const std::uint32_t> from, const WorkEnd&
     }
   });
   for (std::vector<WalkTask>& some : ridges) {
+    has_left_ridges_out_ = has_left_ridges_out_ || (end.has_deadline() && some.empty());
     for (WalkTask& task : some) tasks.push_back(std::move(task));
     ends.push_back(tasks.size());
   }
   std::vector<std::uint32_t> ids;
-  for (std::size_t first = 0; first < tasks.size() && !(first > 0 && end.is_late());) {
+  for (std::size_t first = 0; first < tasks.size() && !end.is_late();) {
     const std::size_t count = walks_at_once_.at_once(tasks.size() - first, end);
     std::vector<std::uint32_t> met;
     walks_at_once_.look_at(
-        end, [&] { met = enter(shooter_.walk(std::span(tasks).subspan(first, count), end.stop())); });
+        count, end, [&] { met = enter(shooter_.walk(std::span(tasks).subspan(first, count), end.stop())); });
     ids.insert(ids.end(), met.begin(), met.end());
     first += count;
   }
+  has_left_ridges_out_ = has_left_ridges_out_ || ids.size() < tasks.size();
   ids.resize(tasks.size(), kNone);
   std::size_t row = 0;
   for (std::size_t one = 0; one < from.size(); ++one) {

@@ -73,12 +73,14 @@ class FacetSearch {
   std::uint64_t rays() const { return rays_; }
   std::uint64_t open_rays() const { return open_rays_; }
   std::uint64_t climbs() const { return climbs_; }
+  /// Was time too short to walk over all ridges of a facet that was climbed from?
+  bool left_ridges_out() const { return has_left_ridges_out_; }
   /// Facets that exactly `hits` rays hit.
   std::uint64_t facets_with_hits(std::uint64_t hits) const;
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
-  static constexpr std::size_t kWalksAtOnce = 4096;
+  static constexpr std::size_t kWalksAtOnce = 512;
 
   std::vector<double> random_direction();
   std::uint32_t find(std::span<const std::uint32_t> points) const;
@@ -101,6 +103,7 @@ class FacetSearch {
   std::vector<std::vector<std::uint32_t>> neighbours_;                            // of facets climbed from
   std::vector<std::vector<std::uint32_t>> vertices_;  // of facets with more than rank points
   Pace walks_at_once_{kWalksAtOnce};  // over ridges: facets with many points take a tenth of a second each
+  bool has_left_ridges_out_ = false;
   std::uint64_t rays_ = 0, open_rays_ = 0, climbs_ = 0;
 };
 

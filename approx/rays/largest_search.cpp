@@ -77,7 +77,7 @@ void LargestSearch::shoot(std::uint64_t rays) {
   for (std::uint64_t shot = 0; shot < rays && !(shot > 0 && end_.is_late());) {
     const std::size_t count = rays_at_once_.at_once(rays - shot, end_);
     std::vector<std::uint32_t> hit;
-    rays_at_once_.look_at(end_, [&] { hit = search_.shoot(count, options_.stop); });
+    rays_at_once_.look_at(count, end_, [&] { hit = search_.shoot(count, options_.stop); });
     hit_.insert(hit_.end(), hit.begin(), hit.end());
     shot += count;
   }
@@ -109,10 +109,10 @@ void LargestSearch::climb(double most_work) {
   all_climbed_ = false;
   while (work() - before < most_work && !end_.is_here()) {
     std::size_t climbed = 0;
-    climbs_at_once_.look_at(
-        end_, [&] { climbed = search_.climb(width_, climbs_at_once_.at_once(kFacetsPerClimb, end_), end_); });
+    const std::size_t most = climbs_at_once_.at_once(kFacetsPerClimb, end_);
+    climbs_at_once_.look_at(most, end_, [&] { climbed = search_.climb(width_, most, end_); });
     if (climbed == 0) {
-      all_climbed_ = true;
+      all_climbed_ = !search_.left_ridges_out();
       return;
     }
     if (options_.progress) {
@@ -134,8 +134,9 @@ void LargestSearch::ascend(double most_work) {
     std::sort(from.begin(), from.end());
   }
   while (!from.empty() && work() - before < most_work && !end_.is_here()) {
-    climbs_at_once_.look_at(
-        end_, [&] { from = search_.ascend(from, climbs_at_once_.at_once(kFacetsPerClimb, end_), end_); });
+    const std::size_t most = climbs_at_once_.at_once(kFacetsPerClimb, end_);
+    climbs_at_once_.look_at(std::min(most, from.size()), end_,
+                            [&] { from = search_.ascend(from, most, end_); });
   }
 }
 

@@ -18,14 +18,14 @@ class Pace {
   std::size_t at_once(std::size_t left, const WorkEnd& end) const {
     return end.has_deadline() ? std::min(now_, left) : left;
   }
-  /// Calls work, and sees what part of all the time it takes.
+  /// Calls work, which does so many, and sees what part of all the time that takes.
   template <class Work>
-  void look_at(const WorkEnd& end, const Work& work) {
+  void look_at(std::size_t count, const WorkEnd& end, const Work& work) {
     constexpr double kShort = 1.0 / 64.0, kLong = 1.0 / 16.0;
     const double before = end.share_of_time();
     work();
-    const double share = end.share_of_time() - before;
-    if (share < kShort) now_ = std::min(2 * now_, most_);
+    const double after = end.share_of_time(), share = after - before;
+    if (count >= now_ && share < kShort && after < 1.0) now_ = std::min(2 * now_, most_);
     if (share > kLong) now_ = std::max<std::size_t>(1, now_ / 2);
   }
 

@@ -12,6 +12,7 @@
 #include "approx/drawing/projection.h"
 #include "approx/drawing/shadow.h"
 #include "core/error.h"
+#include "core/linear/column_table.h"
 #include "tests/support/named_polytopes.h"
 #include "tools/points/generate.h"
 
@@ -220,6 +221,47 @@ TEST(ShadowLaw, OuterHoldsEveryPointAndIsNoFurtherThanTheRatioSays) {
     ASSERT_TRUE(late.has_value() && late->outer.has_value());
     EXPECT_LE(excess(*shadow->outer, *late->outer), 1e-12);
     for (const double margin : late->margins) EXPECT_NEAR(margin, most, 1e-12 * (1.0 + most));
+  }
+}
+
+/// How far the outer polytope reaches along a direction, all facets being asked at every step. Points near 1.
+double reach_of_all(const CentredFacets& facets, const std::vector<double>& direction) {
+  ColumnTable poles(facets.dimension, facets.size());
+  for (std::size_t facet = 0; facet < facets.size(); ++facet) {
+    std::vector<double> pole(facets.normal(facet).begin(), facets.normal(facet).end());
+    for (double& x : pole) x /= facets.heights[facet] + facets.outer[facet];
+    poles.set(facet, pole, 1.0);
+  }
+  ColumnSimplex program(direction);
+  return solve_lp(program, [&poles](const LpQuery& query) { return poles.price(query); }).objective;
+}
+
+// Poles of thin hulls are long: the rounding of a product with one is no improvement.
+TEST(ShadowOracle, ThinHullsReachAsFarAsAProgramWithAllFacetsSays) {
+  constexpr double kThickness = 1e-8;
+  PointSet set = sphere(600, 4);
+  const double half = std::sqrt(0.5);
+  for (std::size_t row = 0; row < set.rows(); ++row) {
+    const std::span<double> x = set.row(row);
+    x[3] *= kThickness;
+    for (const auto& [i, j] : {std::pair{0, 3}, std::pair{1, 3}, std::pair{2, 0}, std::pair{1, 2}}) {
+      const double first = x[static_cast<std::size_t>(i)], last = x[static_cast<std::size_t>(j)];
+      x[static_cast<std::size_t>(i)] = half * (first + last);
+      x[static_cast<std::size_t>(j)] = half * (last - first);
+    }
+  }
+  const Hull hull = convex_hull(set.view(), {.accuracy = {.width = {.value = 0.1 * kThickness}}});
+  const CentredFacets facets = centred_facets(hull);
+  const DrawingAxes axes = columns(hull, {0, 1});
+  const std::optional<Shadow> shadow = hull_shadow(facets, set.view(), hull.vertices, axes);
+  ASSERT_TRUE(shadow.has_value());
+  const double most = outer_ratio(facets);
+  for (std::size_t face = 0; face < shadow->inner.faces.size(); ++face) {
+    const Point3& normal = shadow->inner.faces[face].normal;
+    const double height = dot(shadow->inner.corners[shadow->inner.faces[face].corners.front()], normal);
+    const double reach = reach_of_all(facets, {normal[0], normal[1], 0.0, 0.0});
+    const double expected = std::max(1.0, std::min(most, reach / height));
+    EXPECT_NEAR(1.0 + shadow->margins[face], expected, 1e-5 * expected) << face;
   }
 }
 

@@ -105,7 +105,7 @@ ViewedHull load(const ViewArguments& arguments, Interrupt& interrupt) {
   if (options.accuracy.is_exact()) {
     // What is drawn of its facets takes as much memory again, and more time than growth took for them.
     constexpr double kDrawing = 2.0;
-    options.limits.max_memory_bytes /= 2;
+    options.limits.max_memory_bytes -= options.limits.max_memory_bytes / 2;
     options.limits.share_afterwards = kDrawing;
   }
   if (progress.is_shown()) options.progress = [&progress](const Progress& now) { progress.show(now); };
