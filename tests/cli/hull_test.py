@@ -118,24 +118,6 @@ def test_facet_list_agrees_with_the_report():
     assert (rows == numpy.load(folder / "mean.npy")).all()
 
 
-def test_summary_without_an_output_and_nothing_with_quiet():
-    summary = run("hull", DIAMONDS, "--unit-cube").stdout
-    for text in ("53,940 points in 7-d, complete", "vertices  258", "19,110", "[input^7]", "[unit cube]", "time"):
-        assert text in summary, summary
-    quiet = run("hull", DIAMONDS, "--quiet")
-    assert quiet.stdout == quiet.stderr == ""
-
-
-def test_a_target_that_is_missed_is_told():
-    path = fresh_folder("missed") / "points.npy"
-    rbox("300 s D4 t1", path)
-    assert "was asked for" not in run("hull", path, "--width", "5%").stdout
-    assert "1e-20 was asked for, which is less than rounding" in run("hull", path, "--width", "1e-20").stdout
-    line = next(line for line in run("hull", path, "--width", "1%", "--max-facets", 100).stdout.splitlines()
-                if line.startswith("width"))  # fmt: skip
-    assert "was asked for" in line and "rounding" not in line, line
-
-
 def test_flat_input_says_so():
     folder = fresh_folder("flat")
     box = rbox("50 D3 t1", folder / "box.npy")
