@@ -56,8 +56,10 @@ class OuterReach {
     const double length = rhs.norm();
     if (length == 0.0) return 0.0;
     rhs /= length;
-    ColumnSimplex program(as_span(rhs));
-    const LpResult result = solve_lp(program, [this](const LpQuery& query) { return best_column(query); });
+    LpResult result = solve(rhs, [this](const LpQuery& query) { return known_or_best_column(query); });
+    // A column that hardly improves can be one that rounding lets no other leave for: with the best it ends.
+    if (result.status != LpStatus::kOptimal)
+      result = solve(rhs, [this](const LpQuery& query) { return poles_.price(query); });
     const bool is_feasible = result.status == LpStatus::kOptimal ||
                              (result.status == LpStatus::kStalled && result.infeasibility == 0.0);
     return is_feasible ? length * result.objective : kInfinity;
@@ -66,9 +68,15 @@ class OuterReach {
  private:
   Eigen::Index rows() const { return static_cast<Eigen::Index>(facets_.dimension); }
 
+  template <class Search>
+  static LpResult solve(const Eigen::VectorXd& rhs, const Search& search) {
+    ColumnSimplex program(as_span(rhs));
+    return solve_lp(program, search);
+  }
+
   /// Faces of the shadow beside each other are reached by the same facets: those that came in before are tried
   /// first, all others where none of these improves by more than rounding.
-  std::optional<LpColumn> best_column(const LpQuery& query) {
+  std::optional<LpColumn> known_or_best_column(const LpQuery& query) {
     constexpr double kRounding = 1e-7;  // in parts of the terms
     std::vector<double> multipliers(query.duals.begin(), query.duals.end());
     multipliers.push_back(-query.cost_weight);

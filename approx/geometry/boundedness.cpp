@@ -69,19 +69,11 @@ std::optional<VectorXd> open_among(const RowMatrix& rows) {
   return std::nullopt;
 }
 
-/// Of the first `count` rows. Of many a part is tried first: what bounds a region does so with more.
-std::optional<VectorXd> open_among_first(const RowMatrix& rows, Index count) {
-  constexpr Index kPart = 4096;
-  if (const Index step = count / kPart; step > 1 && !open_among(every(step, rows.topRows(count))))
-    return std::nullopt;
-  return open_among(rows.topRows(count));
-}
-
 /// Of the first `count` rows; all of them say what is even.
 std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
   const EvenNormals even = spread_evenly(rows);
   if (even.orthogonal) return even.orthogonal;
-  std::optional<VectorXd> direction = open_among_first(even.rows, count);
+  std::optional<VectorXd> direction = open_among(even.rows.topRows(count));
   if (direction) direction = (even.map * *direction).normalized();
   return direction;
 }
@@ -233,12 +225,10 @@ class Completion {
   std::vector<std::uint32_t> selected_;
 };
 
-/// So many normals from all over a body know its shape.
-constexpr Index kEnough = 32'768;
-
 /// The map that spreads the normals evenly; of many an even part tells. Nothing: all are orthogonal to
 /// something.
 std::optional<MatrixXd> even_map(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions) {
+  constexpr Index kEnough = 32'768;
   const auto of_each = [&](Index step) -> std::optional<MatrixXd> {
     const EvenNormals even = spread_evenly(unit_rows(every(step, normals), directions));
     if (even.orthogonal) return std::nullopt;
@@ -262,30 +252,59 @@ std::vector<std::uint32_t> smallest_completion(NormalTable& normals,
   return best;
 }
 
-}  // namespace
-
-Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,
-                                std::span<const double> equations, std::span<const double> others) {
-  const MatrixXd directions = subspace_directions(dimension, equations);
-  if (directions.cols() == 0) return {true, {}, 0.0};  // a point
-  const Eigen::Map<const RowMatrix> given = as_rows(normals, dimension);
-  if (const Index step = given.rows() / kEnough; step > 1) {
-    const RowMatrix part = every(step, given);
-    const std::span<const double> values(part.data(), static_cast<std::size_t>(part.size()));
-    if (find_open_direction(values, dimension, equations, others).bounded) return {true, {}, 0.0};
-  }
+/// Of these rows; those and `others` say what is even.
+Boundedness open_direction_of(const RowMatrix& given, const RowMatrix& others, const MatrixXd& directions) {
   const RowMatrix rows = unit_rows(given, directions);
   RowMatrix all = rows;
-  if (!others.empty()) {
-    const RowMatrix further = unit_rows(as_rows(others, dimension), directions);
-    all.conservativeResize(rows.rows() + further.rows(), Eigen::NoChange);
-    all.bottomRows(further.rows()) = further;
+  if (others.rows() > 0) {
+    all.conservativeResize(rows.rows() + others.rows(), Eigen::NoChange);
+    all.bottomRows(others.rows()) = unit_rows(others, directions);
   }
   const std::optional<VectorXd> open = open_direction(all, rows.rows());
   if (!open) return {true, {}, 0.0};
   const VectorXd direction = directions * *open;
   return {false, std::vector<double>(direction.data(), direction.data() + direction.size()),
           rows.rows() == 0 ? 0.0 : (rows * *open).maxCoeff()};
+}
+
+/// Of `count` rows, `rows_of(step)` being the first of so many each. Of many a part is asked first: what bounds
+/// a region does so with more.
+template <class RowsOf>
+Boundedness ask_part_first(Index count, const RowsOf& rows_of, const RowMatrix& others, std::size_t dimension,
+                           std::span<const double> equations) {
+  constexpr Index kPart = 16'384;
+  const MatrixXd directions = subspace_directions(dimension, equations);
+  if (directions.cols() == 0) return {true, {}, 0.0};  // a point
+  if (count > kPart) {
+    Boundedness of_part = open_direction_of(rows_of((count + kPart - 1) / kPart), others, directions);
+    if (of_part.bounded) return of_part;
+  }
+  return open_direction_of(rows_of(1), others, directions);
+}
+
+}  // namespace
+
+Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,
+                                std::span<const double> equations) {
+  const Eigen::Map<const RowMatrix> all = as_rows(normals, dimension);
+  return ask_part_first(
+      all.rows(), [&](Index step) { return every(step, all); }, RowMatrix(0, all.cols()), dimension,
+      equations);
+}
+
+Boundedness find_open_direction_of(std::span<const double> normals, std::size_t dimension,
+                                   std::span<const std::uint32_t> selected,
+                                   std::span<const double> equations) {
+  constexpr Index kEnoughForShape = 4096;
+  const Eigen::Map<const RowMatrix> all = as_rows(normals, dimension);
+  const auto rows_of = [&](Index step) {
+    RowMatrix rows((std::ssize(selected) + step - 1) / step, all.cols());
+    for (Index row = 0; row < rows.rows(); ++row)
+      rows.row(row) = all.row(selected[static_cast<std::size_t>(row * step)]);
+    return rows;
+  };
+  return ask_part_first(std::ssize(selected), rows_of, every(all.rows() / kEnoughForShape + 1, all),
+                        dimension, equations);
 }
 
 std::vector<std::uint32_t> complete_to_bounded(std::span<const double> normals, std::size_t dimension,

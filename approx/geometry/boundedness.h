@@ -25,15 +25,19 @@ struct Boundedness {
 /// Method  The normals are mapped linearly so that they spread evenly (the answer does not change); then
 ///         each of rank + 1 directions that span the space positively must be a combination of normals with
 ///         weights >= 0. One linear program each; the dual of one that fails is the direction.
-/// Others  normals of further planes of the same body: the map spreads these and `normals` evenly. Without
-///         them the map of a few planes of a merged cube makes their rounding as long as the rest: they would
-///         bound a region 1e13 times the cube.
 /// Limit   Normals that after the map reach less than 1e-10 far in some direction count as open. Of more than
-///         65,536 an even part says what is even, as in complete_to_bounded, unless it leaves a direction open.
+///         16,384 an even part says what is even, unless it leaves a direction open.
 /// Cost    rank + 1 linear programs with rank rows and a column for each normal; of many normals that bound a
-///         region mostly for some thousand of them.
+///         region for that part of them.
 Boundedness find_open_direction(std::span<const double> normals, std::size_t dimension,
-                                std::span<const double> equations = {}, std::span<const double> others = {});
+                                std::span<const double> equations = {});
+
+/// The same of some rows, those selected, of the normals of one body: some thousand of all of them are spread
+/// evenly with these. The map of a few planes of a merged cube makes their rounding as long as the rest: they
+/// would bound a region 1e13 times the cube.
+Boundedness find_open_direction_of(std::span<const double> normals, std::size_t dimension,
+                                   std::span<const std::uint32_t> selected,
+                                   std::span<const double> equations = {});
 
 /// Rows of `normals`, apart from those selected, that bound a region together with these; few: found by
 /// linear programs that use as little as they can of new normals, several times, then thinned until none

@@ -26,9 +26,6 @@ constexpr double kSecondsPerCreated = 1e-7;
 constexpr double kAffordableSeconds = 0.01;
 constexpr double kAffordableShare = 0.2;
 
-constexpr const char* kOutOfTime = "it would take longer than the limit on seconds";
-constexpr const char* kOutOfMemory = "it would take more memory than there is for it";
-
 /// Has the polytope of all planes more vertices than that? Tried on an even part of them, unless they are
 /// few: vertices for each plane only become more with the planes, where hardly any is redundant.
 bool seems_larger(const PlanesAboutOrigin& planes, std::uint64_t vertices, HullOptions options) {
@@ -79,17 +76,29 @@ double scale_of_outer_polytope(const Hull& hull) {
 
 }  // namespace
 
-// The fewest vertices of a simple polytope with so many facets (Barnette. The minimum number of vertices of a
-// simple polytope. Israel Journal of Mathematics 10, 1971).
-bool has_surely_more_vertices(std::size_t rank, std::size_t planes, std::uint64_t vertices) {
-  const double d = static_cast<double>(rank);
-  const double fewest = (d - 1.0) * static_cast<double>(planes) - (d + 1.0) * (d - 2.0);
-  return vertices > 0 && fewest > static_cast<double>(vertices);
+// The fewest vertices of a simple polytope with so many facets: Barnette. The minimum number of vertices of a
+// simple polytope. Israel Journal of Mathematics 10, 1971.
+HullStatus limit_before_outer_polytope(std::size_t rank, std::size_t planes, const Limits& limits) {
+  constexpr double kSecondsPerNumber = 1e-7;
+  const double d = static_cast<double>(rank), count = static_cast<double>(planes);
+  const double fewest = (d - 1.0) * count - (d + 1.0) * (d - 2.0);
+  if (limits.max_facets > 0 && fewest > static_cast<double>(limits.max_facets))
+    return HullStatus::kFacetLimit;
+  if (limits.max_seconds > 0.0 && kSecondsPerNumber * d * count > limits.max_seconds)
+    return HullStatus::kTimeLimit;
+  return HullStatus::kComplete;
 }
 
-bool takes_longer_to_begin(std::size_t rank, std::size_t planes, double max_seconds) {
-  constexpr double kSecondsPerNumber = 1e-7;
-  return max_seconds > 0.0 && kSecondsPerNumber * static_cast<double>(rank * planes) > max_seconds;
+std::string reason_of_end(HullStatus status, const Limits& limits) {
+  switch (status) {
+    case HullStatus::kInterrupted: return "interrupted";
+    case HullStatus::kTimeLimit: return "it would take longer than the limit on seconds";
+    case HullStatus::kMemoryLimit: return "it would take more memory than there is for it";
+    case HullStatus::kFacetLimit:
+      return "the outer polytope has more than about " + std::to_string(limits.max_facets) + " vertices";
+    case HullStatus::kComplete: break;
+  }
+  return "the outer planes do not bound a region";
 }
 
 PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets) {
@@ -132,19 +141,18 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, cons
   const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));
   const OuterVolume beyond{std::nullopt, "it is beyond the range of doubles"};
   if (scale <= kNarrow) return is_in_range(most) ? OuterVolume{most, ""} : beyond;
-  const std::uint64_t max_simplices = limits.max_facets;
-  const OuterVolume too_many{
-      std::nullopt, "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
+  const auto none = [&limits](HullStatus status) {
+    return OuterVolume{std::nullopt, reason_of_end(status, limits)};
+  };
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
-  if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
-  if (takes_longer_to_begin(hull.rank, count, limits.max_seconds)) return {std::nullopt, kOutOfTime};
+  const HullStatus before = limit_before_outer_polytope(hull.rank, count, limits);
+  if (before != HullStatus::kComplete) return none(before);
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
   for (const double height : planes.heights) {
     if (!(height > 0.0)) return {std::nullopt, "the interior point is not below every outer plane"};
   }
-  if (!facets.empty() && !find_open_direction(planes.normals, planes.rank).bounded) {
-    return {std::nullopt, "the outer planes do not bound a region"};
-  }
+  if (!facets.empty() && !find_open_direction(planes.normals, planes.rank).bounded)
+    return none(HullStatus::kComplete);
   HullOptions options;
   options.wants_partial = false;
   options.limits = limits;
@@ -155,19 +163,14 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, cons
       options.limits.max_seconds = std::max(limits.max_seconds - seconds_since(start), 1e-9);
   };
   spend_time();
-  if (max_simplices > 0 && seems_larger(planes, max_simplices, options)) return too_many;
+  if (limits.max_facets > 0 && seems_larger(planes, limits.max_facets, options))
+    return none(HullStatus::kFacetLimit);
   spend_time();
   const PlanePolytope polytope = intersect_about_origin(planes, options);
-  if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
-  if (polytope.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
-  if (polytope.status == HullStatus::kMemoryLimit) return {std::nullopt, kOutOfMemory};
-  if (polytope.status != HullStatus::kComplete) return too_many;
-  if (!polytope.bounded) return {std::nullopt, "the outer planes do not bound a region"};
+  if (polytope.status != HullStatus::kComplete || !polytope.bounded) return none(polytope.status);
   spend_time();
   const PolytopeMeasure measure = measure_polytope(planes, polytope, options, false);
-  if (measure.status == HullStatus::kInterrupted) return {std::nullopt, "interrupted"};
-  if (measure.status == HullStatus::kTimeLimit) return {std::nullopt, kOutOfTime};
-  if (measure.status != HullStatus::kComplete) return {std::nullopt, kOutOfMemory};
+  if (measure.status != HullStatus::kComplete) return none(measure.status);
   // Of a hull hardly thicker than rounding the planes' polytope is measured badly: bounds hold all the same.
   const double volume = std::max(hull.volume, std::min(most, measure.volume));
   return is_in_range(volume) ? OuterVolume{volume, ""} : beyond;

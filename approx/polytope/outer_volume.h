@@ -17,13 +17,13 @@ namespace ndhull {
 /// orthonormal coordinates of the subspace that the points span, input units.
 PlanesAboutOrigin outer_planes_about_interior(const Hull& hull, std::span<const FacetId> facets);
 
-/// Has the polytope of so many planes more vertices than that (0: no limit), if hardly any is redundant? Few
-/// outer planes of a hull are.
-bool has_surely_more_vertices(std::size_t rank, std::size_t planes, std::uint64_t vertices);
+/// Which limit the polytope of so many planes is surely beyond before it is begun; kComplete: none. Few
+/// outer planes of a hull are redundant, so that there are many more vertices; and a hull of their dual
+/// points looks at the clock only when it has read them.
+HullStatus limit_before_outer_polytope(std::size_t rank, std::size_t planes, const Limits& limits);
 
-/// Does a hull of the dual points of so many planes take longer than that (0: no limit) before it first looks
-/// at the clock?
-bool takes_longer_to_begin(std::size_t rank, std::size_t planes, double max_seconds);
+/// Why there is no measure of the outer polytope whose work ended so.
+std::string reason_of_end(HullStatus status, const Limits& limits);
 
 /// A volume, or why there is none.
 struct OuterVolume {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "approx/geometry/orthonormal.h"
 #include "core/linear/dense_views.h"
@@ -193,7 +194,7 @@ std::vector<std::uint32_t> FacetSearch::ascend(std::span<const std::uint32_t> fr
 void FacetSearch::climb_from(std::span<const std::uint32_t> from, const WorkEnd& end) {
   std::vector<WalkTask> tasks;
   std::vector<std::size_t> ends;
-  std::vector<std::vector<WalkTask>> ridges(from.size());
+  std::vector<std::optional<std::vector<WalkTask>>> ridges(from.size());  // none: there was no time
   for_each_block(from.size(), 1, [&](std::size_t row, std::size_t) {
     if (end.is_late()) return;
     const auto points = points_of(from[row]);
@@ -206,9 +207,9 @@ void FacetSearch::climb_from(std::span<const std::uint32_t> from, const WorkEnd&
       ridges[row] = geometry_.ridge_walks(geometry_of(from[row]));
     }
   });
-  for (std::vector<WalkTask>& some : ridges) {
-    has_left_ridges_out_ = has_left_ridges_out_ || (end.has_deadline() && some.empty());
-    for (WalkTask& task : some) tasks.push_back(std::move(task));
+  for (std::optional<std::vector<WalkTask>>& some : ridges) {
+    has_left_ridges_out_ = has_left_ridges_out_ || !some;
+    if (some) std::ranges::move(*some, std::back_inserter(tasks));
     ends.push_back(tasks.size());
   }
   std::vector<std::uint32_t> ids;

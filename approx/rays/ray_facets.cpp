@@ -114,7 +114,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   return facet;
 }
 
-std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
+std::optional<std::vector<WalkTask>> FacetGeometry::ridge_walks(const RayFacet& facet) const {
   const std::size_t rank = shooter_.points().rank;
   std::vector<WalkTask> walks;
   if (facet.vertices.size() == rank) {
@@ -126,7 +126,7 @@ std::vector<WalkTask> FacetGeometry::ridge_walks(const RayFacet& facet) const {
   if (rank - 1 > kMaxRank) return walks;
   const InPlane within = project(facet);
   const Hull& hull = within.hull;
-  if (hull.status == HullStatus::kTimeLimit) return walks;
+  if (hull.status == HullStatus::kTimeLimit) return std::nullopt;
   if (hull.rank + 1 < rank || hull.rank < 2) {
     // A segment: each end is a ridge.
     if (hull.rank + 1 < rank || hull.vertices.size() != 2) return walks;

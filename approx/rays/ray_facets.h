@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "approx/rays/ray_shooting.h"
@@ -38,9 +39,9 @@ class FacetGeometry {
   /// a with a.y = 1 on the points, in the frame, by least squares.
   std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;
 
-  /// Walks over the ridges of a facet; of very many, over the largest ones; none where time was too short. Of a
-  /// simplex points and vertices are enough.
-  std::vector<WalkTask> ridge_walks(const RayFacet& facet) const;
+  /// Walks over the ridges of a facet; of very many, over the largest ones; nothing where time was too short.
+  /// Of a simplex points and vertices are enough.
+  std::optional<std::vector<WalkTask>> ridge_walks(const RayFacet& facet) const;
 
  private:
   struct InPlane;

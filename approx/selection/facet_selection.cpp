@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 #include "approx/geometry/boundedness.h"
@@ -58,42 +57,18 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options,
   return is_kept;
 }
 
-std::vector<double> normals_of(const Hull& hull, const std::vector<std::uint32_t>& ids) {
-  std::vector<double> normals;
-  normals.reserve(ids.size() * hull.dimension);
-  for (const std::uint32_t id : ids) {
-    const std::span<const double> normal = hull.normal(FacetId{id});
-    normals.insert(normals.end(), normal.begin(), normal.end());
-  }
-  return normals;
-}
-
-/// At most so many, from all over.
-std::vector<std::uint32_t> some_of(const std::vector<std::uint32_t>& ids, std::size_t most) {
-  const std::size_t step = ids.size() / most + 1;
-  std::vector<std::uint32_t> some;
-  for (std::size_t place = 0; place < ids.size(); place += step) some.push_back(ids[place]);
-  return some;
-}
-
 }  // namespace
 
 FacetSelection select_facets(const Hull& hull, const SelectionOptions& options, const WorkEnd& end,
                              const PointView* points) {
   const std::vector<bool> is_kept = kept_facets(hull, options, end, points);
   const bool is_chosen = options.largest && options.measure != SelectionMeasure::kArea;
-  std::vector<std::uint32_t> all(hull.facet_count()), ids;
-  std::iota(all.begin(), all.end(), 0U);
-  std::ranges::copy_if(all, std::back_inserter(ids), [&](std::uint32_t id) { return is_kept[id]; });
-  constexpr std::size_t kEnoughForShape = 4096, kMany = 16'384;
-  const std::vector<double> shape = normals_of(hull, some_of(all, kEnoughForShape));
-  const auto bounds = [&](const std::vector<std::uint32_t>& chosen) {
-    return find_open_direction(normals_of(hull, chosen), hull.dimension, hull.subspace_equations, shape);
-  };
-  const auto region_of = [&](const std::vector<std::uint32_t>& chosen) {
-    // What bounds a region does so with more: the normals of very many need not be copied.
-    if (chosen.size() > kMany && bounds(some_of(chosen, kMany)).bounded) return Boundedness{true, {}, 0.0};
-    return bounds(chosen);
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < hull.facet_count(); ++id) {
+    if (is_kept[id]) ids.push_back(id);
+  }
+  const auto region_of = [&hull](const std::vector<std::uint32_t>& chosen) {
+    return find_open_direction_of(hull.normals(), hull.dimension, chosen, hull.subspace_equations);
   };
   FacetSelection selection;
   selection.is_cut_short = is_chosen && end.is_here();

@@ -84,17 +84,14 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
                              const Limits& limits, unsigned threads, const std::stop_token& stop) {
   if (hull.rank == 0) return {0.0, 0.0, ""};
   const WorkEnd end(limits.max_seconds, stop);
-  const std::uint64_t max_simplices = limits.max_facets;
-  const OuterDistance too_many{
-      std::nullopt, 0.0,
-      "the outer polytope has more than about " + std::to_string(max_simplices) + " vertices"};
-  const OuterDistance out_of_time{std::nullopt, 0.0, "it would take longer than the limit on seconds"};
+  const auto none = [&limits](HullStatus status) {
+    return OuterDistance{std::nullopt, 0.0, reason_of_end(status, limits)};
+  };
   const std::size_t count = facets.empty() ? hull.facet_count() : facets.size();
-  if (has_surely_more_vertices(hull.rank, count, max_simplices)) return too_many;
-  if (takes_longer_to_begin(hull.rank, count, limits.max_seconds)) return out_of_time;
+  const HullStatus before = limit_before_outer_polytope(hull.rank, count, limits);
+  if (before != HullStatus::kComplete) return none(before);
   const PlanesAboutOrigin planes = outer_planes_about_interior(hull, facets);
-  if (!find_open_direction(planes.normals, planes.rank).bounded)
-    return {std::nullopt, 0.0, "the outer planes do not bound a region"};
+  if (!find_open_direction(planes.normals, planes.rank).bounded) return none(HullStatus::kComplete);
   HullOptions options;
   options.wants_partial = false;
   options.limits = limits;
@@ -102,17 +99,13 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
   options.threads = threads;
   options.stop = stop;
   const PlanePolytope polytope = intersect_about_origin(planes, options);
-  if (polytope.status == HullStatus::kInterrupted) return {std::nullopt, 0.0, "interrupted"};
-  if (polytope.status == HullStatus::kTimeLimit) return out_of_time;
-  if (polytope.status == HullStatus::kMemoryLimit)
-    return {std::nullopt, 0.0, "it would take more memory than there is for it"};
-  if (polytope.status != HullStatus::kComplete || !polytope.bounded) return too_many;
+  if (polytope.status != HullStatus::kComplete || !polytope.bounded) return none(polytope.status);
   const Eigen::Map<const RowMatrix> vertices = as_rows(polytope.vertices, planes.rank);
   const Eigen::VectorXd lengths = vertices.rowwise().norm() * (1.0 + 0x1p-50);  // their rounding
   const double vertex_work = static_cast<double>(planes.rank) * static_cast<double>(vertices.rows());
   const double gauge_work = vertex_work * static_cast<double>(hull.facet_count());
   const double search_work = vertex_work * kSearchRounds * static_cast<double>(hull.vertices.size());
-  if (max_simplices > 0 && std::min(gauge_work, search_work) > kAffordable)
+  if (limits.max_facets > 0 && std::min(gauge_work, search_work) > kAffordable)
     return {std::nullopt, 0.0, "vertices are too many to be compared with the hull"};
   // The gauges settle most vertices. Where facets are many it is less work to look for all nearest points.
   std::vector<double> most(lengths.begin(), lengths.end());
@@ -124,8 +117,9 @@ OuterDistance outer_distance(const Hull& hull, const PointView& points, std::spa
   });
   const Eigen::MatrixXd columns = vertex_columns(hull, points);
   const double size = std::sqrt(columns.colwise().squaredNorm().maxCoeff());
-  const std::size_t affordable =
-      max_simplices > 0 ? static_cast<std::size_t>(kAffordable / (search_work / vertex_work)) : order.size();
+  const std::size_t affordable = limits.max_facets > 0
+                                     ? static_cast<std::size_t>(kAffordable / (search_work / vertex_work))
+                                     : order.size();
   OuterDistance result{0.0, 0.0, ""};
   std::vector<HullDistance> nearest(kSearchesAtATime);
   for (std::size_t first = 0; first < order.size() && most[order[first]] > *result.distance;

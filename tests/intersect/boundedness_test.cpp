@@ -72,6 +72,10 @@ TEST(BoundednessExample, OneOfVeryManyNormalsCloses) {
     std::vector<double> closed = normals;
     closed[row * kDimension + kDimension - 1] = -1e3;
     EXPECT_TRUE(find_open_direction(closed, kDimension).bounded) << row;
+    std::vector<std::uint32_t> others(kCount - 1);
+    for (std::size_t k = 0; k < others.size(); ++k)
+      others[k] = static_cast<std::uint32_t>(k < row ? k : k + 1);
+    EXPECT_FALSE(find_open_direction_of(closed, kDimension, others).bounded) << row;
   }
 }
 
@@ -241,9 +245,10 @@ TEST(BoundednessExample, RoundingOfACubesSidesBoundsNothing) {
                                   -6e-13, -1.0,  1e-12,  2e-13, -4e-13, 1.0,   -3e-13, 1e-13, -1.0};
   const std::vector<std::uint32_t> four{0, 1, 2, 3}, expected{4, 5};
   EXPECT_EQ(complete_to_bounded(sides, 3, four), expected);
-  EXPECT_FALSE(find_open_direction(rows_of(sides, 3, four), 3, {}, sides).bounded);
-  EXPECT_TRUE(find_open_direction(sides, 3, {}, sides).bounded);
-  EXPECT_FALSE(find_open_direction({}, 3, {}, sides).bounded);
+  const std::vector<std::uint32_t> all{0, 1, 2, 3, 4, 5};
+  EXPECT_FALSE(find_open_direction_of(sides, 3, four).bounded);
+  EXPECT_TRUE(find_open_direction_of(sides, 3, all).bounded);
+  EXPECT_FALSE(find_open_direction_of(sides, 3, {}).bounded);
 }
 
 TEST(BoundednessExample, CubesAreCompletedWithTheSidesThatAreMissing) {
