@@ -6,7 +6,7 @@
 # The compiler must not fuse a*b + c on its own: the same source would round differently from machine to
 # machine, and results are the same bytes everywhere. An explicit fused multiply-add stays what it is.
 add_library(ndhull_arithmetic INTERFACE)
-target_compile_options(ndhull_arithmetic INTERFACE -ffp-contract=off)
+target_compile_options(ndhull_arithmetic INTERFACE -ffp-contract=off -fno-math-errno)
 
 add_library(ndhull_warnings INTERFACE)
 target_compile_options(

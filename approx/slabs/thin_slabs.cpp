@@ -93,18 +93,24 @@ class ThinPartitioner {
   }
 
   void find_some_stars(const FloatPoints* points, std::uint32_t begin, std::uint32_t end) {
-    std::array<std::uint32_t, kStarsAtATime * D> across{};
+    std::array<std::uint32_t, kStarsAtATime * D> across;
     std::array<double, kStarsAtATime> least;
     std::array<ProductBits, kStarsAtATime> bits;
     for (std::uint32_t row = begin; row < end; ++row) {
+      const std::uint32_t next = std::min<std::uint32_t>(row + 3 * kRowsAhead, row_count_ - 1);
+      prefetch(row_of(next), 2 * D);
+      prefetch(plane_of(next), D);
       const std::uint32_t* const later =
           row_of(std::min<std::uint32_t>(row + kRowsAhead, row_count_ - 1)) + D;
       for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(later[k]);
       const bool is_open = !is_taken(row);
       for (std::size_t k = 0; k < D; ++k)
         across[(row - begin) * D + k] = is_open ? vertex_across(row, k) : 0u;
-      least[row - begin] = is_open ? 1.0 - width_ * planes_.length_of(plane_of(row)) : kNothingFits;
+      least[row - begin] = planes_.length_sq_of(plane_of(row));
     }
+    for (std::size_t i = 0; i < end - begin; ++i) least[i] = 1.0 - width_ * std::sqrt(least[i]);
+    for (std::uint32_t row = begin; row < end; ++row)
+      if (is_taken(row)) least[row - begin] = kNothingFits;
     if (*std::min_element(least.begin(), least.begin() + (end - begin)) <= 0.0)
       are_far_from_centre_.store(false, std::memory_order_relaxed);
     if (points != nullptr) {
