@@ -86,7 +86,7 @@ void HullBuilder::adopt(StarHull found) {
       vertices.values.push_back(vertex);
       points.values.push_back(ids[vertex]);
     }
-    vertices.begin.push_back(static_cast<std::uint32_t>(vertices.values.size()));
+    vertices.end_row();
   }
   points.begin = vertices.begin;
   hull_.layout_.merged_surface = facets.surface;

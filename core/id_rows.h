@@ -15,6 +15,20 @@ struct IdRows {
   std::span<const std::uint32_t> row(std::size_t r) const {
     return {values.data() + begin[r], values.data() + begin[r + 1]};
   }
+  /// `ids`: numbers, or ids of one kind.
+  template <class Ids>
+  void append(const Ids& ids) {
+    for (const auto id : ids) {
+      if constexpr (requires { id.value; }) {
+        values.push_back(id.value);
+      } else {
+        values.push_back(id);
+      }
+    }
+    end_row();
+  }
+  /// Values that were added behind the last row become one.
+  void end_row() { begin.push_back(static_cast<std::uint32_t>(values.size())); }
 };
 
 /// Values as ids of a kind, which are one such value each.

@@ -22,11 +22,6 @@ void for_each_bit(std::span<const std::uint64_t> bits, const Visit& visit) {
       visit(static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(left)));
 }
 
-void append_row(IdRows& rows, std::span<const std::uint32_t> ids) {
-  rows.values.insert(rows.values.end(), ids.begin(), ids.end());
-  rows.begin.push_back(static_cast<std::uint32_t>(rows.values.size()));
-}
-
 }  // namespace
 
 HullDescription::HullDescription(const double* coordinates, std::size_t count, const Frame& frame,
@@ -199,8 +194,8 @@ bool HullDescription::list_facets() {
       if (!put_opposite(vertices, neighbours)) return false;
     }
     for (std::uint32_t& vertex : vertices) vertex = hull_.vertices[vertex].value;
-    append_row(hull_.facet_vertices, vertices);
-    append_row(hull_.neighbours, neighbours);
+    hull_.facet_vertices.append(vertices);
+    hull_.neighbours.append(neighbours);
   }
   return true;
 }

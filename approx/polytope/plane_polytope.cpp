@@ -5,15 +5,6 @@
 #include "core/error.h"
 
 namespace ndhull {
-namespace {
-
-template <class From>
-void append_row(IdRows& rows, std::span<const From> ids) {
-  for (const From id : ids) rows.values.push_back(id.value);
-  rows.begin.push_back(static_cast<std::uint32_t>(rows.values.size()));
-}
-
-}  // namespace
 
 PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const HullOptions& options) {
   const std::size_t rank = planes.rank, count = planes.heights.size();
@@ -52,8 +43,8 @@ PlanePolytope intersect_about_origin(const PlanesAboutOrigin& planes, const Hull
     }
     const auto normal = hull.normal(facet);
     for (std::size_t k = 0; k < rank; ++k) polytope.vertices[id * rank + k] = normal[k] / -offset;
-    append_row(polytope.planes_of, hull.vertices_of(facet));
-    append_row(polytope.neighbours_of, hull.neighbours_of(facet));
+    polytope.planes_of.append(hull.vertices_of(facet));
+    polytope.neighbours_of.append(hull.neighbours_of(facet));
   }
   polytope.planes.reserve(hull.simplices().row_count * rank);
   polytope.vertex_of.reserve(hull.simplices().row_count);

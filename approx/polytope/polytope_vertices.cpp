@@ -253,7 +253,7 @@ class VertexPlacer {
     const auto begin = rows.values.begin() + rows.begin.back();
     std::sort(begin, rows.values.end());
     rows.values.erase(std::unique(begin, rows.values.end()), rows.values.end());
-    rows.begin.push_back(static_cast<std::uint32_t>(rows.values.size()));
+    rows.end_row();
   }
 
   /// The largest distance from the planes of a vertex; `excess`: over what is accepted, as a ratio.

@@ -248,9 +248,7 @@ class RowCover {
     for (Lane* const lane : lanes) {
       facets_.surface += lane->surface;
       if (lane->facet == kNone) continue;
-      std::vector<std::uint32_t>& values = facets_.vertices.values;
-      values.insert(values.end(), lane->slab.vertices.begin(), lane->slab.vertices.end());
-      facets_.vertices.begin.push_back(static_cast<std::uint32_t>(values.size()));
+      facets_.vertices.append(lane->slab.vertices);
     }
   }
 

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -20,9 +19,9 @@
 #include <utility>
 #include <vector>
 
-#include "approx/slabs/product_bits_kernel.h"
 #include "approx/slabs/seed_planes.h"
 #include "approx/slabs/star_passes.h"
+#include "approx/slabs/star_search.h"
 #include "core/dimension_switch.h"
 #include "core/ids.h"
 #include "core/machine/blocks.h"
@@ -33,8 +32,7 @@ namespace {
 
 /// Rows whose way from memory has begun.
 constexpr std::size_t kRowsAhead = 8, kMembersAhead = 1;
-constexpr std::size_t kStarRowsInBlock = 1 << 13, kStarsAtATime = 64;
-constexpr double kNothingFits = 1e30;  // a product that no point has
+constexpr std::size_t kPairRowsInBlock = 1 << 13;
 
 template <std::size_t D>
 class ThinPartitioner {
@@ -54,7 +52,8 @@ class ThinPartitioner {
         point_count_(space.point_count()) {}
 
   DualFacets run() {
-    find_stars();
+    StarSearch<D> stars(complex_, std::span(coordinates_, point_count_ * D), facets_.marks, planes_, width_);
+    stars.find(fitting_);
     do_beside([&] { take_all_stars(); },
               [&] { determinants_ = find_determinants_([](std::size_t, std::size_t) {}); });
     take_pairs();
@@ -62,7 +61,7 @@ class ThinPartitioner {
     fitting_ = {};  // in whose memory tables of facets find place
     list_facets(facets_, member_count_, with_planes_);
     // Planes between two others, and raised ones, are no nearer.
-    facets_.are_far_from_centre = facets_.are_far_from_centre && are_far_from_centre_;
+    facets_.are_far_from_centre = facets_.are_far_from_centre && stars.are_far_from_centre();
     return std::move(facets_);
   }
 
@@ -78,58 +77,6 @@ class ThinPartitioner {
   std::uint32_t vertex_across(std::uint32_t row, std::size_t k) const {
     const std::uint32_t* const vertices = row_of(row);
     return facets_.marks.vertex_across(facets_.marks[row], vertices[k], facets_.marks[vertices[D + k]]);
-  }
-
-  /// Which neighbours are less than the width below each row's own plane. Points above would leave less.
-  void find_stars() {
-    // Of more points than simplices a second table would take memory that no limit knows of.
-    std::optional<FloatPoints> points;
-    if (point_count_ <= row_count_) points.emplace(D, std::span(coordinates_, point_count_ * D));
-    for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t first = begin; first < end; first += kStarsAtATime)
-        find_some_stars(points ? &*points : nullptr, static_cast<std::uint32_t>(first),
-                        static_cast<std::uint32_t>(std::min(first + kStarsAtATime, end)));
-    });
-  }
-
-  void find_some_stars(const FloatPoints* points, std::uint32_t begin, std::uint32_t end) {
-    std::array<std::uint32_t, kStarsAtATime * D> across;
-    std::array<double, kStarsAtATime> least;
-    std::array<ProductBits, kStarsAtATime> bits;
-    for (std::uint32_t row = begin; row < end; ++row) {
-      const std::uint32_t next = std::min<std::uint32_t>(row + 3 * kRowsAhead, row_count_ - 1);
-      prefetch(row_of(next), 2 * D);
-      prefetch(plane_of(next), D);
-      const std::uint32_t* const later =
-          row_of(std::min<std::uint32_t>(row + kRowsAhead, row_count_ - 1)) + D;
-      for (std::size_t k = 0; k < D; ++k) facets_.marks.ask_for(later[k]);
-      const bool is_open = !is_taken(row);
-      for (std::size_t k = 0; k < D; ++k)
-        across[(row - begin) * D + k] = is_open ? vertex_across(row, k) : 0u;
-      least[row - begin] = planes_.length_sq_of(plane_of(row));
-    }
-    for (std::size_t i = 0; i < end - begin; ++i) least[i] = 1.0 - width_ * std::sqrt(least[i]);
-    for (std::uint32_t row = begin; row < end; ++row)
-      if (is_taken(row)) least[row - begin] = kNothingFits;
-    if (*std::min_element(least.begin(), least.begin() + (end - begin)) <= 0.0)
-      are_far_from_centre_.store(false, std::memory_order_relaxed);
-    if (points != nullptr) {
-      compare_products(*points, plane_of(begin), across.data(), std::span(least).first(end - begin),
-                       std::span(bits).first(end - begin));
-    } else {
-      constexpr auto kAll = static_cast<std::uint16_t>((1u << D) - 1);
-      for (std::size_t i = 0; i < end - begin; ++i)
-        bits[i] = {0, least[i] == kNothingFits ? std::uint16_t{0} : kAll};
-    }
-    for (std::uint32_t row = begin; row < end; ++row) {
-      const ProductBits& found = bits[row - begin];
-      unsigned fitting = found.at_least;
-      for (unsigned left = found.unknown; left != 0; left &= left - 1) {
-        const auto k = static_cast<std::size_t>(std::countr_zero(left));
-        fitting |= (dot(plane_of(row), vertex_across(row, k)) >= least[row - begin] ? 1u : 0u) << k;
-      }
-      fitting_[row] = static_cast<NeighbourBits>(fitting);
-    }
   }
 
   /// Largest first, as in a greedy cover. All sizes, one by one, would save 1.5 % of the facets in 8-d and
@@ -276,7 +223,7 @@ class ThinPartitioner {
     const auto each = [](std::size_t i) { return i; };
     if (!has_more_threads() || planes_.may_have_points_above())
       return for_each_open(0, row_count_, each, ask_for_marks, list, take_first);
-    for_each_block(row_count_, kStarRowsInBlock, [&](std::size_t begin, std::size_t end) {
+    for_each_block(row_count_, kPairRowsInBlock, [&](std::size_t begin, std::size_t end) {
       for_each_open(begin, end, each, ask_for_marks, list, [&](std::uint32_t row) {
         unsigned fitting = 0;
         for_fitting_partners(row, [&](std::size_t k, const SeedPlane<D>&) {
@@ -383,7 +330,6 @@ class ThinPartitioner {
   DualFacets facets_;
   std::vector<NeighbourBits> fitting_;  // per row: of the neighbours that its slab would take
   std::size_t point_count_;
-  std::atomic<bool> are_far_from_centre_ = true;  // the simplices' planes
   StarPasses<D> passes_;
   std::size_t member_count_ = 0;            // of those listed in facets_
   std::vector<std::uint32_t> with_planes_;  // seeds of facets that have planes of their own, in order

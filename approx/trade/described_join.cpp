@@ -67,11 +67,6 @@ std::vector<std::vector<std::uint32_t>> parts_in_order(const DescribedHull& hull
   return sorted;
 }
 
-void append_row(IdRows& rows, std::vector<std::uint32_t> ids) {
-  rows.values.insert(rows.values.end(), ids.begin(), ids.end());
-  rows.begin.push_back(static_cast<std::uint32_t>(rows.values.size()));
-}
-
 /// Sorted, each once.
 std::vector<std::uint32_t> as_set(std::vector<std::uint32_t> ids) {
   std::sort(ids.begin(), ids.end());
@@ -91,8 +86,8 @@ void list_joined(const DescribedHull& hull, const JoinedFacets& joined,
         if (joined.facet_of[other] != facet) neighbours.push_back(joined.facet_of[other]);
     }
     const bool is_simplex = facet < result.simplicial;
-    append_row(result.facet_vertices, is_simplex ? vertices : as_set(std::move(vertices)));
-    append_row(result.neighbours, is_simplex ? neighbours : as_set(std::move(neighbours)));
+    result.facet_vertices.append(is_simplex ? vertices : as_set(std::move(vertices)));
+    result.neighbours.append(is_simplex ? neighbours : as_set(std::move(neighbours)));
   }
 }
 

@@ -127,7 +127,7 @@ TEST(ListedDotsLaw, SmallestAndLargestAreThoseOfTheList) {
       for (std::size_t i = 0; i <= facet; ++i)
         lists.values.push_back(static_cast<std::uint32_t>(random() % count));
       if (facet == 3) lists.values.insert(lists.values.end(), {0u, 1u});
-      lists.begin.push_back(static_cast<std::uint32_t>(lists.values.size()));
+      lists.end_row();
     }
     std::vector<double> low(facets), high(facets);
     std::vector<std::uint32_t> close(facets);

@@ -24,13 +24,8 @@ void number_as_in_file(HalfspaceIntersection& intersection, const HalfspaceFile&
   intersection.equalities = rows_of(intersection.equalities, file);
   intersection.non_redundant = rows_of(intersection.non_redundant, file);
   IdRows renumbered;
-  renumbered.begin.assign(1, 0);
-  for (std::size_t vertex = 0; vertex + 1 < intersection.halfspaces_of.begin.size(); ++vertex) {
-    const std::vector<std::uint32_t> rows =
-        rows_of(intersection.halfspaces_of.row(static_cast<std::uint32_t>(vertex)), file);
-    renumbered.values.insert(renumbered.values.end(), rows.begin(), rows.end());
-    renumbered.begin.push_back(static_cast<std::uint32_t>(renumbered.values.size()));
-  }
+  for (std::size_t vertex = 0; vertex + 1 < intersection.halfspaces_of.begin.size(); ++vertex)
+    renumbered.append(rows_of(intersection.halfspaces_of.row(vertex), file));
   if (!intersection.halfspaces_of.begin.empty()) intersection.halfspaces_of = std::move(renumbered);
   for (HalfspaceWeight& term : intersection.proof) {
     if (file.is_reversed[term.halfspace]) term.weight = -term.weight;

@@ -140,7 +140,7 @@ void append_facet(const nlohmann::json& facet, const std::vector<double>& refere
     if (vertex >= point_count) throw std::length_error("a vertex that is no point");
     viewed.facet_vertices.values.push_back(vertex);
   }
-  viewed.facet_vertices.begin.push_back(static_cast<std::uint32_t>(viewed.facet_vertices.values.size()));
+  viewed.facet_vertices.end_row();
 }
 
 /// Without the name of the JSON library's exception, which stands in brackets before it.
@@ -213,12 +213,8 @@ ViewedHull viewed_hull(const Hull& hull, PointFile points) {
   viewed.extents = hull.unit_cube_extents();
   viewed.facet_vertices.begin.reserve(hull.facet_count() + 1);
   viewed.facet_vertices.values.reserve(hull.facet_count() * hull.rank);
-  for (std::uint32_t row = 0; row < hull.facet_count(); ++row) {
-    for (const PointId vertex : hull.vertices_of(FacetId{row})) {
-      viewed.facet_vertices.values.push_back(vertex.value);
-    }
-    viewed.facet_vertices.begin.push_back(static_cast<std::uint32_t>(viewed.facet_vertices.values.size()));
-  }
+  for (std::uint32_t row = 0; row < hull.facet_count(); ++row)
+    viewed.facet_vertices.append(hull.vertices_of(FacetId{row}));
   return viewed;
 }
 
