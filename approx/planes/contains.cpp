@@ -1,5 +1,5 @@
 // Blocked: each block of queries stays in registers and cache while blocks of planes stream by; the block of
-// the largest product is remembered and searched at the end.
+// the largest product is remembered and searched at the end, or all where rounding hides which it is.
 #include "approx/planes/contains.h"
 
 #include <tbb/task_arena.h>
@@ -37,6 +37,7 @@ class Comparer {
   /// Queries begin .. begin + out.size().
   void compare(std::size_t begin, std::span<PlaneDistance> out) const {
     std::vector<double> rows(out.size() * columns_, 1.0), best(out.size(), -HUGE_VAL), products(out.size());
+    std::vector<double> of_others(best);  // of blocks that are not the best one
     std::vector<std::size_t> block_of(out.size(), 0);
     for (std::size_t query = 0; query < out.size(); ++query)
       queries_.copy_row(begin + query, rows.data() + query * columns_);
@@ -44,6 +45,7 @@ class Comparer {
       const std::size_t used = std::min(kPlaneBlock, halfspaces_.count() - first);
       max_dots(columns_, rows, {unit_rows_.data() + first * columns_, used * columns_}, products);
       for (std::size_t query = 0; query < out.size(); ++query) {
+        of_others[query] = std::max(of_others[query], std::min(products[query], best[query]));
         if (!(products[query] > best[query])) continue;
         best[query] = products[query];
         block_of[query] = first;
@@ -51,13 +53,11 @@ class Comparer {
     }
     for (std::size_t query = 0; query < out.size(); ++query) {
       const double* const row = rows.data() + query * columns_;
-      const double roundoff = roundoff_of(row);
-      if (std::abs(best[query]) <= 2.0 * roundoff) {
-        out[query] = furthest(row, 0, halfspaces_.count(), best[query] - 2.0 * roundoff);
-      } else {
-        const std::size_t end = std::min(block_of[query] + kPlaneBlock, halfspaces_.count());
-        out[query] = furthest(row, block_of[query], end, best[query] - 2.0 * roundoff);
-      }
+      const double least = best[query] - 2.0 * roundoff_of(row);
+      const bool is_in_block = of_others[query] < least;
+      const std::size_t end = std::min(block_of[query] + kPlaneBlock, halfspaces_.count());
+      out[query] = is_in_block ? furthest(row, block_of[query], end, least)
+                               : furthest(row, 0, halfspaces_.count(), least);
     }
   }
 

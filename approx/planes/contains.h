@@ -24,8 +24,8 @@ struct PlaneDistance {
 ///          whose distances differ by less either may be named.
 /// Threads  0: all cores. The result does not depend on it.
 /// Throws   Error as HalfspaceSet does; kEmptyInput without planes; kUsage for rows of another length.
-/// Cost     queries x planes x (dimension + 1) multiplications, close to the machine's peak. A query within
-///          rounding of a plane is compared with all planes once more.
+/// Cost     queries x planes x (dimension + 1) multiplications, close to the machine's peak. A query that
+///          rounding leaves two planes for is compared with all planes once more.
 std::vector<PlaneDistance> distances_to_planes(const PointView& queries, std::span<const double> planes,
                                                unsigned threads = 0);
 
