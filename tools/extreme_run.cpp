@@ -50,6 +50,9 @@ std::vector<NamedOutput> outputs_of(const ExtremeRequest& request) {
 struct Outcome {
   ExtremePoints found;
   std::optional<KeptPoints> kept;
+  /// [distance] of all points from the hull of those kept. Nothing: it is not known, since what was searched
+  /// for vertices was not all, and points outside may be none of those found.
+  std::optional<double> max_distance;
   std::vector<double> distances;
   double read_seconds = 0.0, keep_seconds = 0.0, verify_seconds = 0.0, total_seconds = 0.0;
   bool is_verified = false;
@@ -99,13 +102,29 @@ void write_results(const ExtremeRequest& request, const Outcome& outcome) {
                    std::copy_n(found.planes.data() + index * columns, columns, row);
                  });
   }
-  if (outcome.kept.has_value() && !request.distances_path.empty()) {
-    write_numbers(request.distances_path, outcome.distances);
-  }
+  if (!request.distances_path.empty()) write_numbers(request.distances_path, outcome.distances);
 }
 
 Json option_json(const OptionValue& value) {
   return std::holds_alternative<std::string>(value) ? Json(std::get<std::string>(value)) : Json(nullptr);
+}
+
+bool knows_all_vertices(const ExtremePoints& found) {
+  return found.status == ExtremeStatus::kComplete && found.open_points == 0;
+}
+
+/// Chooses among the vertices found.
+void keep(const PointView& points, const ExtremeRequest& request, Outcome& outcome) {
+  const ExtremePoints& found = outcome.found;
+  if (!request.distances_path.empty()) outcome.distances.assign(points.rows, HUGE_VAL);
+  if (found.vertices.empty()) return;  // a limit may leave none
+  outcome.kept = keep_points(
+      points, found.vertices, found.interior_point,
+      {.count = request.keep, .stop = request.options.stop, .progress = request.options.progress});
+  if (knows_all_vertices(found)) outcome.max_distance = outcome.kept->distances.back();
+  if (request.distances_path.empty()) return;
+  outcome.distances = distances_from_hull(points, outcome.kept->points, found.interior_point);
+  if (!outcome.max_distance) outcome.max_distance = *std::ranges::max_element(outcome.distances);
 }
 
 std::string report_json(const ExtremeRequest& request, const Outcome& outcome) {
@@ -138,10 +157,10 @@ std::string report_json(const ExtremeRequest& request, const Outcome& outcome) {
     Json ids = Json::array();
     for (const PointId id : outcome.kept->points) ids.push_back(id.value);
     json["kept"] = {{"count", outcome.kept->points.size()},
-                    {"max_distance", outcome.kept->distances.back()},
+                    {"max_distance", outcome.max_distance ? Json(*outcome.max_distance) : Json(nullptr)},
                     {"max_distance_at_least", outcome.kept->lower},
                     {"points", std::move(ids)},
-                    {"distances", outcome.kept->distances}};
+                    {"distances", knows_all_vertices(found) ? Json(outcome.kept->distances) : Json(nullptr)}};
   }
   json["verified"] = outcome.is_verified;
   json["seconds"] = {{"read", outcome.read_seconds},
@@ -165,9 +184,11 @@ std::string summary(const ExtremeRequest& request, const Outcome& outcome) {
                       grouped(found.points_inside));
   if (found.open_points > 0) text += fmt::format("open      {} points\n", grouped(found.open_points));
   if (outcome.kept.has_value()) {
-    text += fmt::format(
-        "kept      {}: every point is within {:.6g} [input] of their hull, one not within {:.6g}\n",
-        grouped(outcome.kept->points.size()), outcome.kept->distances.back(), outcome.kept->lower);
+    text += fmt::format("kept      {}: ", grouped(outcome.kept->points.size()));
+    text += outcome.max_distance
+                ? fmt::format("every point is within {:.6g} [input] of their hull", *outcome.max_distance)
+                : "how far points are from their hull is known with --distances only, since some are open";
+    text += fmt::format(", one not within {:.6g}\n", outcome.kept->lower);
   }
   text += fmt::format("time      {:.2f} s: read {:.2f}, search {:.2f}, keep {:.2f}\n", outcome.total_seconds,
                       outcome.read_seconds, found.seconds, outcome.keep_seconds);
@@ -201,16 +222,9 @@ int run_extreme(const ExtremeRequest& asked) {
   interrupt.arm();
   outcome.found = extreme_points(points.view(), request.options);
   const ExtremePoints& found = outcome.found;
-  if (request.keep > 0 && !found.vertices.empty()) {  // a limit may leave none
+  if (request.keep > 0) {
     const Clock::time_point keep_start = Clock::now();
-    arena.execute([&] {
-      outcome.kept = keep_points(
-          points.view(), found.vertices, found.interior_point,
-          {.count = request.keep, .stop = interrupt.token(), .progress = request.options.progress});
-      if (!request.distances_path.empty()) {
-        outcome.distances = distances_from_hull(points.view(), outcome.kept->points, found.interior_point);
-      }
-    });
+    arena.execute([&] { keep(points.view(), request, outcome); });
     outcome.keep_seconds = seconds_since(keep_start);
   }
   if (request.verify) {
