@@ -36,7 +36,8 @@ class RegionCloser {
 
   std::size_t run() {
     for (std::size_t left = 8 * rank_; left > 0; --left) {
-      const Boundedness found = find_open_direction(normals_, rank_);
+      Boundedness found = find_open_direction(normals_, rank_);
+      if (found.bounded) found = open_but_for_rounding();
       if (found.bounded || !close(found.direction)) break;
     }
     return taken_;
@@ -48,6 +49,31 @@ class RegionCloser {
     double most = 0.0;
     std::uint32_t row = kNone;
   };
+
+  /// The normals of few wide facets may all be orthogonal to something but for rounding, which then closes a
+  /// region some 1e12 times the hull: the normals of its simplices say what is rounding.
+  Boundedness open_but_for_rounding() {
+    if (shape_.empty()) {
+      constexpr std::size_t kEnough = 512;
+      shape_ = normals_of_some_simplices(kEnough);
+    }
+    std::vector<double> all = normals_;
+    all.insert(all.end(), shape_.begin(), shape_.end());
+    std::vector<std::uint32_t> own(normals_.size() / rank_);
+    std::iota(own.begin(), own.end(), 0u);
+    return find_open_direction_of(all, rank_, own);
+  }
+
+  std::vector<double> normals_of_some_simplices(std::size_t count) const {
+    std::vector<double> normals, normal(rank_);
+    const std::size_t step = complex_.row_count / count + 1;
+    for (std::size_t row = 0; row < complex_.row_count; row += step) {
+      if (complex_.state[row] != SimplexState::kLive) continue;
+      space_.normal_of(complex_.plane(SimplexId{static_cast<std::uint32_t>(row)}), normal.data());
+      normals.insert(normals.end(), normal.begin(), normal.end());
+    }
+    return normals;
+  }
 
   /// False: all that face it are facets already.
   bool close(std::span<const double> direction) {
@@ -165,7 +191,7 @@ class RegionCloser {
   Covering& covering_;
   std::size_t rank_;
   std::vector<std::uint32_t> size_of_;
-  std::vector<double> normals_;
+  std::vector<double> normals_, shape_;
   std::vector<std::uint8_t> is_wanted_;
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
