@@ -197,7 +197,8 @@ def test_fp_names_the_nearest_vertex_of_the_facet():
     lines = ours("Qc FP", stdin).splitlines()
     assert int(lines[0]) == len(lines) - 1 == 60
     for line in lines[1:]:
-        vertex, point, facet = map(int, line.split()[:3])
+        vertex, point, name = map(int, line.split()[:3])
+        facet = name - 1  # as FI calls it
         distances = numpy.linalg.norm(points[vertices[facet][1:]] - points[point], axis=1)
         assert vertex == vertices[facet][1:][distances.argmin()]
         assert abs(float(line.split()[3]) - distances.min()) < 1e-15

@@ -1,5 +1,6 @@
 #include "tools/io/facet_order.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,47 +11,20 @@ namespace {
 // A sample of simplices decides about the orientation; the one that spans most has the surest sign.
 constexpr std::size_t kOrientationSamples = 256;
 
-/// Determinant of unit rows by elimination with partial pivoting; 0 for a row of length 0.
-double unit_determinant(std::vector<double> rows, std::size_t size) {
-  double determinant = 1.0;
-  for (std::size_t row = 0; row < size; ++row) {
-    double length_sq = 0.0;
-    for (std::size_t k = 0; k < size; ++k) length_sq += rows[row * size + k] * rows[row * size + k];
-    if (length_sq == 0.0) return 0.0;
-    for (std::size_t k = 0; k < size; ++k) rows[row * size + k] /= std::sqrt(length_sq);
-  }
-  for (std::size_t step = 0; step < size; ++step) {
-    std::size_t pivot = step;
-    for (std::size_t row = step + 1; row < size; ++row) {
-      if (std::abs(rows[row * size + step]) > std::abs(rows[pivot * size + step])) pivot = row;
-    }
-    if (rows[pivot * size + step] == 0.0) return 0.0;
-    if (pivot != step) {
-      determinant = -determinant;
-      for (std::size_t k = 0; k < size; ++k) std::swap(rows[pivot * size + k], rows[step * size + k]);
-    }
-    determinant *= rows[step * size + step];
-    for (std::size_t row = step + 1; row < size; ++row) {
-      const double factor = rows[row * size + step] / rows[step * size + step];
-      for (std::size_t k = step; k < size; ++k) rows[row * size + k] -= factor * rows[step * size + k];
-    }
-  }
-  return determinant;
-}
-
 double orientation(const Hull& hull, const PointView& points, SimplexId simplex) {
-  const std::size_t size = hull.dimension;
+  const auto size = static_cast<Eigen::Index>(hull.dimension);
   const std::span<const PointId> vertices = hull.simplices().vertices(simplex);
-  std::vector<double> rows;
-  rows.reserve(size * size);
-  for (std::size_t vertex = 1; vertex < size; ++vertex) {
-    for (std::size_t k = 0; k < size; ++k) {
-      rows.push_back(points.at(vertices[vertex].value, k) - points.at(vertices[0].value, k));
+  Eigen::MatrixXd rows(size, size);
+  for (Eigen::Index row = 0; row + 1 < size; ++row) {
+    const PointId vertex = vertices[static_cast<std::size_t>(row) + 1];
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      rows(row, k) = points.at(vertex.value, axis) - points.at(vertices[0].value, axis);
     }
   }
-  const std::span<const double> normal = hull.normal(hull.facet_of(simplex));
-  rows.insert(rows.end(), normal.begin(), normal.end());
-  return unit_determinant(std::move(rows), size);
+  rows.row(size - 1) = Eigen::Map<const Eigen::RowVectorXd>(hull.normal(hull.facet_of(simplex)).data(), size);
+  rows.rowwise().normalize();
+  return rows.determinant();
 }
 
 using Edge = std::pair<PointId, PointId>;  // tail, head
@@ -139,7 +113,10 @@ std::vector<PointId> FacetOrder::vertices(FacetId facet) const {
   // The complex may have vertices on a side of the facet that the facet itself does without.
   std::erase_if(path,
                 [&](PointId vertex) { return !std::binary_search(known.begin(), known.end(), vertex); });
-  return path.size() == unordered.size() ? path : unordered;
+  // A facet merged within a width has vertices between its ends, or inside its sides, too.
+  if (path.size() < hull_.rank) return unordered;
+  if (hull_.rank == 2) return {path.front(), path.back()};
+  return path;
 }
 
 std::vector<PointId> FacetOrder::polygon() const {

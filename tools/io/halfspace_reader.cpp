@@ -64,14 +64,15 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
   return file;
 }
 
-/// A point in front of the halfspaces: "d 1" on one line, d numbers, and more behind them. Returns the
-/// place behind the point, or null when there is none.
-const char* read_interior_point(const TextSource& source, std::vector<double>& point) {
-  const char* const start = skip_comment_lines(source, source.begin());
-  const IntegerLine header = read_integer_line(source, start);
-  if (header.count != 2 || header.value[1] != 1 || header.text_is_number) return nullptr;
-  const std::size_t dimension = header.value[0];
-  const char* place = header.next;
+/// A point in front of the halfspaces: d and 1, d numbers, and more behind them. Returns the place behind the
+/// point, or null when there is none.
+const char* read_interior_point(const TextSource& source, TextKind kind, std::vector<double>& point) {
+  const QhullHeader header = read_qhull_header(source);
+  if (header.count != std::size_t{1}) return nullptr;
+  // A row of a table may begin with these.
+  if (kind == TextKind::kByContent && header.data != source.end() && header.data[-1] != '\n') return nullptr;
+  const std::size_t dimension = *header.dimension;
+  const char* place = header.data;
   while (point.size() < dimension && (place = skip_comment_lines(source, place)) != source.end()) {
     const char* comment = nullptr;
     read_number_line(source, place, point, &comment);
@@ -81,20 +82,20 @@ const char* read_interior_point(const TextSource& source, std::vector<double>& p
   return point.size() == dimension && has_more ? place : nullptr;
 }
 
-HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& extension) {
+HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& extension, TextKind kind) {
   HalfspaceFile file;
   std::vector<double> point;
-  const char* const rest = read_interior_point(source, point);
+  const char* const rest = read_interior_point(source, kind, point);
   NumberTable table;
   if (rest == nullptr) {
-    table = read_number_text(source, extension, true);
+    table = read_number_text(source, extension, kind, true);
   } else {
     // Line numbers in messages count from the start of the file, so the point becomes blank lines.
     std::string text(source.begin(), rest);
     std::replace_if(
         text.begin(), text.end(), [](char letter) { return letter != '\n'; }, ' ');
     text.append(rest, source.end());
-    table = read_number_text(TextSource(source.name(), text), extension, true);
+    table = read_number_text(TextSource(source.name(), text), extension, kind, true);
     if (point.size() + 1 != table.columns) {
       source.fail(
           ErrorCode::kBadHeader, skip_comment_lines(source, source.begin()),
@@ -162,7 +163,7 @@ HalfspaceFile read_halfspaces(const std::string& path) {
   return parse_halfspaces(FileBytes::read(path), path);
 }
 
-HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path) {
+HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path, TextKind kind) {
   const std::string name = display_name(path);
   const std::string extension = extension_of(path);
   HalfspaceFile file;
@@ -172,7 +173,7 @@ HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path) {
     const TextSource source = text_source_of(bytes, name);
     source.require_content();
     const bool is_cdd = extension == "ine" || extension == "ext" || looks_like_cdd(source);
-    file = is_cdd ? read_cdd_halfspaces(source, extension) : read_text_halfspaces(source, extension);
+    file = is_cdd ? read_cdd_halfspaces(source, extension) : read_text_halfspaces(source, extension, kind);
   }
   file.path = name;
   if (file.file_row_count == 0) file.file_row_count = file.count;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/io/file_bytes.h"
+#include "tools/io/qhull_text_reader.h"
 
 namespace ndhull {
 
@@ -45,11 +46,13 @@ struct HalfspaceFile {
 ///
 /// Formats   .ine (H-representation of cdd and lrs: a row b0 a' says b0 + a'.x >= 0, and is turned round),
 ///           .npy (rows normal, offset), otherwise text: Qhull's (`n`, `Fo`: dimension + 1, count, rows;
-///           a point "dimension 1" may stand in front, as option FV writes it), or columns.
+///           a point "dimension 1" may stand in front, as option FV writes it), or columns. `kind` says
+///           which of these a name without an extension that tells is taken for.
 /// Throws    Error as read_points does; kBadHalfspace for a row whose normal is zero, but in .ine files.
 HalfspaceFile read_halfspaces(const std::string& path);
 
 /// The same for bytes at hand; `path` tells the extension and the name in messages.
-HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path);
+HalfspaceFile parse_halfspaces(FileBytes bytes, const std::string& path,
+                               TextKind kind = TextKind::kByContent);
 
 }  // namespace ndhull

@@ -12,6 +12,8 @@
 #include "approx/report.h"
 #include "approx/report_json.h"
 #include "core/error.h"
+#include "core/id_rows.h"
+#include "tools/io/vertex_order.h"
 
 namespace ndhull {
 namespace {
@@ -116,6 +118,15 @@ IdRows vertices_of_halfspaces(const HalfspaceIntersection& intersection) {
 
 using RegionWriter = void (*)(OutputFile&, const HalfspaceIntersection&);
 
+/// The rows of all vertices in an order of vertex_order.h.
+template <class Order>
+IdRows ordered(const HalfspaceIntersection& intersection, const Order& order) {
+  IdRows rows;
+  for (std::size_t vertex = 0; vertex < intersection.vertex_count(); ++vertex)
+    rows.append(order(intersection, vertex));
+  return rows;
+}
+
 struct RegionFormat {
   std::string_view name;
   RegionWriter write;
@@ -124,8 +135,10 @@ struct RegionFormat {
 constexpr RegionFormat kRegionFormats[] = {
     {"Fp", write_vertices},
     {"Fv", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, true); }},
-    {"i", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, false); }},
-    {"Fn", [](OutputFile& file, const auto& region) { write_rows(file, region.neighbours_of, true); }},
+    {"i", [](OutputFile& file,
+             const auto& region) { write_rows(file, ordered(region, oriented_halfspaces), false); }},
+    {"Fn", [](OutputFile& file,
+              const auto& region) { write_rows(file, ordered(region, opposite_neighbours), true); }},
     {"Fx", write_non_redundant},
     {"FN",
      [](OutputFile& file, const auto& region) { write_rows(file, vertices_of_halfspaces(region), true); }},

@@ -11,7 +11,8 @@
 namespace ndhull {
 
 /// Writes the formats in the order asked for, as qhalf prints them: Fp (dimension, count, vertices), Fv and i
-/// (of each vertex the halfspaces in it, i without their number), Fn (its neighbours), Fx (halfspaces that
+/// (of each vertex the halfspaces in it, i without their number and oriented), Fn (its neighbours; the i-th is
+/// opposite the i-th halfspace of Fv where as many as dimensions meet), Fx (halfspaces that
 /// are not redundant; in 2-d counterclockwise), FN (of each halfspace its vertices). Ids count from 0.
 /// Equalities of a flat intersection are left out.
 ///

@@ -56,8 +56,10 @@ NumberTable read_cdd_points(const TextSource& source, const std::string& extensi
 bool is_table_name(const std::string& extension) { return extension == "csv" || extension == "tsv"; }
 
 /// Does this text, neither cdd's nor binary, begin with Qhull's dimension and count?
-bool is_qhull_text(const TextSource& source, const std::string& extension) {
-  return !is_table_name(extension) && looks_like_qhull_text(source);
+bool is_qhull_text(const TextSource& source, const std::string& extension, TextKind kind) {
+  if (is_table_name(extension)) return false;
+  if (kind == TextKind::kQhull && read_qhull_header(source).dimension) return true;
+  return looks_like_qhull_text(source);
 }
 
 /// These columns of points that were read as a whole.
@@ -127,10 +129,11 @@ TextSource text_source_of(const FileBytes& bytes, const std::string& name) {
   return {name, text};
 }
 
-NumberTable read_number_text(const TextSource& source, const std::string& extension, bool may_be_empty) {
+NumberTable read_number_text(const TextSource& source, const std::string& extension, TextKind kind,
+                             bool may_be_empty) {
   source.require_content();
-  return is_qhull_text(source, extension) ? read_qhull_text(source, may_be_empty)
-                                          : read_table(source, {}, may_be_empty);
+  return is_qhull_text(source, extension, kind) ? read_qhull_text(source, may_be_empty)
+                                                : read_table(source, {}, may_be_empty);
 }
 
 PointFile read_points(const std::string& path, const ColumnChoice& columns, std::size_t kept_bytes) {
@@ -154,7 +157,7 @@ PointFile parse_cdd_points(const FileBytes& bytes, const std::string& path) {
 }
 
 PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns,
-                       std::size_t kept_bytes) {
+                       std::size_t kept_bytes, TextKind kind) {
   const std::string name = display_name(path);
   const std::string extension = extension_of(path);
   if (extension == "npy" || looks_like_npy(bytes.view()))
@@ -163,7 +166,7 @@ PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnCho
   source.require_content();
   if (extension == "ext" || extension == "ine" || looks_like_cdd(source))
     return choose({name, read_cdd_points(source, extension)}, columns);
-  if (is_qhull_text(source, extension)) return choose({name, read_qhull_text(source)}, columns);
+  if (is_qhull_text(source, extension, kind)) return choose({name, read_qhull_text(source)}, columns);
   return {name, read_table(source, columns)};
 }
 

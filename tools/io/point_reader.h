@@ -8,6 +8,7 @@
 #include "core/points.h"
 #include "tools/io/column_choice.h"
 #include "tools/io/file_bytes.h"
+#include "tools/io/qhull_text_reader.h"
 #include "tools/io/text_source.h"
 
 namespace ndhull {
@@ -55,9 +56,10 @@ inline constexpr std::size_t kKeptFileBytes = std::size_t{1} << 26;
 PointFile read_points(const std::string& path, const ColumnChoice& columns = {},
                       std::size_t kept_bytes = kKeptFileBytes);
 
-/// The same for bytes at hand; `path` tells the extension and the name in messages.
+/// The same for bytes at hand; `path` tells the extension and the name in messages, `kind` what text is that
+/// neither tells.
 PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnChoice& columns = {},
-                       std::size_t kept_bytes = kKeptFileBytes);
+                       std::size_t kept_bytes = kKeptFileBytes, TextKind kind = TextKind::kByContent);
 
 /// Points of a cdd file that says V-representation or nothing, whatever its name (Qhull's option Fd).
 /// Throws as read_points; kBadHeader where there is no line "begin".
@@ -66,7 +68,7 @@ PointFile parse_cdd_points(const FileBytes& bytes, const std::string& path);
 /// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
 /// `may_be_empty`: a count of 0, or a table of names alone, is no error.
 NumberTable read_number_text(const TextSource& source, const std::string& extension,
-                             bool may_be_empty = false);
+                             TextKind kind = TextKind::kByContent, bool may_be_empty = false);
 
 /// The bytes as text, without a byte order mark; carriage returns that end lines alone become newlines.
 /// Throws kBadHeader for UTF-16, compressed and other binary files, with what they are.

@@ -76,7 +76,7 @@ void write_merge_counts(OutputFile& file, const QhullPrint& print) {
 
 void write_facet_ids(OutputFile& file, const QhullPrint& print) {
   file.print("{}\n", print.facets.size());
-  for (const FacetId facet : print.facets) file.print("{}\n", facet.value);
+  for (const FacetId facet : print.facets) file.print("{}\n", QhullPrint::printed_id(facet));
 }
 
 void write_facet_areas(OutputFile& file, const QhullPrint& print) {

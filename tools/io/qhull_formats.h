@@ -26,14 +26,18 @@ struct QhullPrint {
   const Hull& hull;
   PointView points;
   std::vector<FacetId> facets;      ///< to print
-  std::vector<std::int64_t> label;  ///< of every facet: its position in `facets`, or -(id + 1)
+  std::vector<std::int64_t> label;  ///< of every facet: its position in `facets`, or minus its printed id
   std::vector<PointId> vertices;    ///< of the facets to print, ascending
   FacetOrder order;
 
+  /// What FI and FP call a facet: minus that is another number.
+  static std::int64_t printed_id(FacetId facet) { return std::int64_t{facet.value} + 1; }
+
   // What Qhull's own command line may ask for besides (tools/qhull/qhull_run.cpp).
-  std::vector<AttachedPoint> attached;  ///< points of the facets to print that are no vertices (Qc, Qi)
-  std::string invocation;               ///< "rbox ... | qhull ...": FQ, FD before its planes, the summary
-  bool writes_cdd = false;              ///< FD: n, Fo, Fi and p as cdd reads them
+  /// Points of the facets to print that are no vertices (Qc, Qi), and those of other facets, which FN has.
+  std::vector<AttachedPoint> attached, attached_elsewhere;
+  std::string invocation;   ///< "rbox ... | qhull ...": FQ, FD before its planes, the summary
+  bool writes_cdd = false;  ///< FD: n, Fo, Fi and p as cdd reads them
 };
 
 /// Splits the list of `ndhull hull --format`, like "n,Fx o", at commas and blanks.

@@ -78,8 +78,8 @@ void write_nearest_vertices(OutputFile& file, const QhullPrint& print) {
       least_sq = sum;
       nearest = vertex;
     }
-    file.print("{} {} {} {:6.16g} \n", nearest.value, attached.point.value, attached.facet.value,
-               std::sqrt(least_sq));
+    file.print("{} {} {} {:6.16g} \n", nearest.value, attached.point.value,
+               QhullPrint::printed_id(attached.facet), std::sqrt(least_sq));
   }
 }
 
@@ -98,10 +98,10 @@ void write_vertex_facets(OutputFile& file, const QhullPrint& print) {
     for (const PointId vertex : hull.vertices_of(facet_id(row))) facets[next[vertex.value]++] = facet_id(row);
   }
 
-  std::vector<FacetId> facet_of_attached(print.attached.empty() ? 0 : hull.point_count);
-  for (const AttachedPoint& attached : print.attached) {
-    facet_of_attached[attached.point.value] = attached.facet;
-  }
+  std::vector<FacetId> facet_of_attached(
+      print.attached.empty() && print.attached_elsewhere.empty() ? 0 : hull.point_count);
+  for (const auto* const list : {&print.attached, &print.attached_elsewhere})
+    for (const AttachedPoint& attached : *list) facet_of_attached[attached.point.value] = attached.facet;
   file.print("{}\n", hull.point_count);
   for (std::size_t point = 0; point < hull.point_count; ++point) {
     const PointId id{static_cast<std::uint32_t>(point)};

@@ -12,6 +12,44 @@
 namespace ndhull {
 namespace {
 
+/// The leading integers of a line and whether other text stands behind them.
+struct IntegerLine {
+  std::size_t count = 0;  // 0, 1, 2, or 3 for "more"
+  std::size_t value[2] = {};
+  bool has_text = false;        // something that is not an unsigned integer follows
+  bool text_is_number = false;  // and it begins like a number
+  const char* next = nullptr;   // the line after it
+};
+
+IntegerLine read_integer_line(const TextSource& source, const char* place) {
+  IntegerLine line;
+  const char* const end = source.line_end(place);
+  const char* at = skip_blanks(place, end);
+  while (at != end && *at != '#') {
+    std::size_t value = 0;
+    const char* const stop = parse_count(at, end, value);
+    if (stop == nullptr || (stop != end && !is_blank(*stop))) {
+      line.has_text = true;
+      line.text_is_number = begins_like_number(at, end);
+      break;
+    }
+    if (line.count < 2) line.value[line.count] = value;
+    line.count = std::min<std::size_t>(line.count + 1, 3);
+    at = skip_blanks(stop, end);
+  }
+  line.next = end == source.end() ? end : end + 1;
+  return line;
+}
+
+/// An integer that is a word of its own at `at`, which moves behind it.
+std::optional<std::size_t> take_integer(const char*& at, const char* end) {
+  std::size_t value = 0;
+  const char* const stop = parse_count(at, end, value);
+  if (stop == nullptr || (stop != end && !is_blank(*stop))) return std::nullopt;
+  at = skip_blanks(stop, end);
+  return value;
+}
+
 /// Numbers separated by blanks behind `place`, unread.
 std::size_t count_words(const TextSource& source, const char* place) {
   std::size_t words = 0;
@@ -142,24 +180,26 @@ const char* skip_comment_lines(const TextSource& source, const char* place) {
   return place;
 }
 
-IntegerLine read_integer_line(const TextSource& source, const char* place) {
-  IntegerLine line;
-  const char* const end = source.line_end(place);
-  const char* at = skip_blanks(place, end);
-  while (at != end && *at != '#') {
-    std::size_t value = 0;
-    const char* const stop = parse_count(at, end, value);
-    if (stop == nullptr || (stop != end && !is_blank(*stop))) {
-      line.has_text = true;
-      line.text_is_number = begins_like_number(at, end);
-      break;
-    }
-    if (line.count < 2) line.value[line.count] = value;
-    line.count = std::min<std::size_t>(line.count + 1, 3);
-    at = skip_blanks(stop, end);
+QhullHeader read_qhull_header(const TextSource& source) {
+  QhullHeader header;
+  header.place = skip_comment_lines(source, source.begin());
+  const char* end = source.line_end(header.place);
+  const char* at = skip_blanks(header.place, end);
+  header.dimension = take_integer(at, end);
+  if (!header.dimension) return header;
+  if (!begins_like_number(at, end)) {
+    at = skip_comment_lines(source, end == source.end() ? end : end + 1);
+    end = source.line_end(at);
+    at = skip_blanks(at, end);
   }
-  line.next = end == source.end() ? end : end + 1;
-  return line;
+  const char* const second = at;
+  header.count = take_integer(at, end);
+  if (!header.count) {
+    header.place = second;
+    return header;
+  }
+  header.data = begins_like_number(at, end) || end == source.end() ? at : end + 1;
+  return header;
 }
 
 bool looks_like_qhull_text(const TextSource& source) {
@@ -195,27 +235,19 @@ bool looks_like_qhull_text(const TextSource& source) {
 
 NumberTable read_qhull_text(const TextSource& source, bool may_be_empty) {
   source.require_content();
-  const char* const start = skip_comment_lines(source, source.begin());
-  const IntegerLine first = read_integer_line(source, start);
-  if (first.count == 0) {
+  const QhullHeader header = read_qhull_header(source);
+  const char* const start = header.place;
+  if (!header.dimension) {
     source.fail(ErrorCode::kBadHeader, start,
                 "found no dimension, expected an integer; begin with lines for the dimension and the number "
                 "of points");
   }
-  std::size_t dimension = first.value[0];
-  std::size_t count = first.value[1];
-  const char* data = first.next;
-  if (first.count == 1) {
-    const char* const second_start = skip_comment_lines(source, data);
-    const IntegerLine second = read_integer_line(source, second_start);
-    if (second.count != 1) {
-      source.fail(ErrorCode::kBadHeader, second_start,
-                  fmt::format("found {}, expected the number of points alone on its line; insert it",
-                              second_start == source.end() ? "the end of the file" : "no integer"));
-    }
-    count = second.value[0];
-    data = second.next;
+  if (!header.count) {
+    source.fail(ErrorCode::kBadHeader, start,
+                fmt::format("found {}, expected the number of points; insert it behind the dimension",
+                            start == source.end() ? "the end of the file" : "no integer"));
   }
+  std::size_t dimension = *header.dimension, count = *header.count;
   if (dimension == 0) {
     source.fail(ErrorCode::kDimensionTooLow, start,
                 "found dimension 0, expected 1 or more; correct the header");
@@ -233,9 +265,9 @@ NumberTable read_qhull_text(const TextSource& source, bool may_be_empty) {
 
   NumberTable table;
   // A number takes two characters at least: a wrong header reserves no more than the file can hold.
-  table.values.reserve(std::min(*announced, static_cast<std::size_t>(source.end() - data) / 2 + 1));
+  table.values.reserve(std::min(*announced, static_cast<std::size_t>(source.end() - header.data) / 2 + 1));
   LineShape shape;
-  for (const char* place = data; (place = skip_empty_lines(source, place)) != source.end();) {
+  for (const char* place = header.data; (place = skip_empty_lines(source, place)) != source.end();) {
     const char* comment = nullptr;
     const std::size_t length = read_number_line(source, place, table.values, &comment);
     if (length == 0 && comment != nullptr) {
@@ -251,7 +283,7 @@ NumberTable read_qhull_text(const TextSource& source, bool may_be_empty) {
                        shape.lines == dimension;
   if (swapped) std::swap(dimension, count);
   if (table.values.size() != *announced)
-    fail_count(source, data, shape, dimension, count, table.values.size());
+    fail_count(source, header.data, shape, dimension, count, table.values.size());
   table.rows = count;
   table.columns = dimension;
   return table;

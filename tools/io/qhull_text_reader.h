@@ -1,9 +1,18 @@
 // Points as rbox writes them and Qhull reads them: dimension, count, coordinates.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "tools/io/text_source.h"
 
 namespace ndhull {
+
+/// What a text without an extension that tells is taken for.
+enum class TextKind {
+  kByContent,  ///< Qhull text or a table
+  kQhull,      ///< Qhull text, if it begins with an integer: what Qhull's own programs read
+};
 
 /// Does the text begin with Qhull's header? Two integers on two lines (or on one, when as many numbers
 /// follow as they announce), the first one perhaps with a comment behind it. Lines of text may stand before
@@ -28,14 +37,13 @@ const char* skip_empty_lines(const TextSource& source, const char* place);
 /// Skips also lines that begin with a word that begins like no number.
 const char* skip_comment_lines(const TextSource& source, const char* place);
 
-/// The leading integers of a line and whether other text stands behind them.
-struct IntegerLine {
-  std::size_t count = 0;  ///< 0, 1, 2, or 3 for "more"
-  std::size_t value[2] = {};
-  bool has_text = false;        ///< something that is not an unsigned integer follows
-  bool text_is_number = false;  ///< and it begins like a number
-  const char* next = nullptr;   ///< the line after it
+/// The two integers that Qhull text begins with: behind the first one a comment may stand, and lines of them
+/// before the second; numbers may follow on its line.
+struct QhullHeader {
+  std::optional<std::size_t> dimension, count;
+  const char* place = nullptr;  ///< of the dimension; where there is no count, of what stands in its place
+  const char* data = nullptr;   ///< behind the count
 };
-IntegerLine read_integer_line(const TextSource& source, const char* place);
+QhullHeader read_qhull_header(const TextSource& source);
 
 }  // namespace ndhull

@@ -68,13 +68,13 @@ std::string summary_of(const RegionCounts& counts, const std::string& invocation
 template <class WriteFormat>
 void print_all(const QhullCommand& command, const std::string& summary, const WriteFormat& write_format) {
   OutputFile file(command.output_path);
-  for (const std::string& format : command.formats) write_format(file, format);
   const bool is_result = command.formats.empty() && !command.has_summary;
   if (is_result || (command.has_summary && command.diagnostics_to_stdout)) {
     file.write(summary);
   } else if (command.has_summary) {
     std::fputs(summary.c_str(), stderr);
   }
+  for (const std::string& format : command.formats) write_format(file, format);
   file.commit();
 }
 
@@ -169,7 +169,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   FileBytes bytes = FileBytes::read(command.input_path);
   const std::string invocation = invocation_of(bytes.view(), command);
   if (command.is_cdd) require_cdd(text_source_of(bytes, display_name(command.input_path)));
-  const HalfspaceFile file = parse_halfspaces(std::move(bytes), command.input_path);
+  const HalfspaceFile file = parse_halfspaces(std::move(bytes), command.input_path, TextKind::kQhull);
   file.require_possible();
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   IntersectionOptions options;

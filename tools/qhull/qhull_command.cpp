@@ -11,13 +11,22 @@
 namespace ndhull {
 namespace {
 
+/// A word of the shell's as it stands in an option string: a file name with blanks, whose quotes the shell has
+/// taken, gets some again. `before`: the string so far.
+std::string quoted(const std::string& word, const std::string& before) {
+  const std::string last = before.substr(before.find_last_of(' ') + 1);
+  if ((last != "TI" && last != "TO") || word.find(' ') == std::string::npos) return word;
+  const char* const quote = word.find('\'') == std::string::npos ? "'" : "\"";
+  return quote + word + quote;
+}
+
 struct QhullArguments {
   std::vector<std::string> words;
   unsigned threads = 0;
 
   QhullCommand parse(QhullProgram program) const {
     std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word, text);
     return parse_qhull_command(text, program);
   }
 };

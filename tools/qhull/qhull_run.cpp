@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <utility>
@@ -91,18 +92,21 @@ void print_all(const QhullPrint& print, const QhullCommand& command, const Qhull
   const bool is_result = command.formats.empty() && !command.has_summary;
   const bool has_summary = command.has_summary || command.has_size || command.reruns > 0;
   OutputFile file(command.output_path);
-  for (const std::string& format : command.formats) write_qhull_format(file, format, print);
-  const std::string summary = has_summary || is_result ? summary_text(print, command, facts) : std::string();
-  std::string said;
-  if (command.lists_options) said += options_text(print.hull, command, facts);
-  if (is_result) file.write(summary);
-  if (!is_result) said += summary;
-  if (command.has_statistics) said += statistics_text(print.hull);
-  if (command.diagnostics_to_stdout) {
-    file.write(said);
-  } else {
-    std::fputs(said.c_str(), stderr);
+  const auto say = [&](const std::string& text) {
+    if (command.diagnostics_to_stdout) {
+      file.write(text);
+    } else {
+      std::fputs(text.c_str(), stderr);
+    }
+  };
+  if (command.lists_options) say(options_text(print.hull, command, facts));
+  if (is_result) {
+    file.write(summary_text(print, command, facts));
+  } else if (has_summary) {
+    say(summary_text(print, command, facts));
   }
+  for (const std::string& format : command.formats) write_qhull_format(file, format, print);
+  if (command.has_statistics) say(statistics_text(print.hull));
   file.commit();
 }
 
@@ -132,7 +136,8 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   FileBytes bytes = FileBytes::read(command.input_path);
   const std::string invocation = invocation_of(bytes.view(), command);
   const PointFile file = command.is_cdd ? parse_cdd_points(bytes, command.input_path)
-                                        : parse_points(std::move(bytes), command.input_path);
+                                        : parse_points(std::move(bytes), command.input_path, {},
+                                                       kKeptFileBytes, TextKind::kQhull);
   check_outputs_are_writable({{"TO", command.output_path}}, {command.input_path});
   PointSet scaled;
   PointView points = file.view();
@@ -182,8 +187,11 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
                                   .interior = command.keep_interior,
                                   .depth = command.coplanar_depth.value_or(0.0)},
                                  threads);
-  std::erase_if(print.attached,
-                [&print](const AttachedPoint& point) { return print.label[point.facet.value] < 0; });
+  const auto elsewhere = std::stable_partition(
+      print.attached.begin(), print.attached.end(),
+      [&print](const AttachedPoint& point) { return print.label[point.facet.value] >= 0; });
+  print.attached_elsewhere.assign(elsewhere, print.attached.end());
+  print.attached.erase(elsewhere, print.attached.end());
   print.invocation = invocation;
   print.writes_cdd = command.writes_cdd;
   print_all(print, command, result.facts);
