@@ -211,6 +211,40 @@ void FacetLayout::number_simplices() {
   });
 }
 
+void FacetClusters::release_lone_simplices(const SimplicialComplex& complex) {
+  constexpr double kRounding = 1e-13;
+  constexpr std::uint32_t kSeveral = kNone - 1;
+  std::vector<std::uint32_t> only_row(count, kNone);
+  for (std::uint32_t row = 0; row < cluster_of.size(); ++row)
+    if (const std::uint32_t cluster = cluster_of[row]; cluster != kNone)
+      only_row[cluster] = only_row[cluster] == kNone ? row : kSeveral;
+  const auto is_lone = [&](std::uint32_t cluster) {
+    if (only_row[cluster] == kSeveral || only_row[cluster] == kNone) return false;
+    const double* const own = complex.plane(SimplexId{only_row[cluster]}).data();
+    const double* const plane = planes.data() + std::size_t{cluster} * complex.rank;
+    const double ratio = std::sqrt(std::inner_product(plane, plane + complex.rank, plane, 0.0) /
+                                   std::inner_product(own, own + complex.rank, own, 0.0));
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t k = 0; k < complex.rank; ++k) {
+      largest = std::max(largest, std::abs(plane[k]));
+      difference = std::max(difference, std::abs(plane[k] - ratio * own[k]));
+    }
+    return difference <= kRounding * largest;
+  };
+  std::vector<std::uint32_t> new_of(count, kNone);
+  std::uint32_t kept = 0;
+  for (std::uint32_t cluster = 0; cluster < count; ++cluster) {
+    if (is_lone(cluster)) continue;
+    std::copy_n(planes.data() + std::size_t{cluster} * complex.rank, complex.rank,
+                planes.data() + std::size_t{kept} * complex.rank);
+    new_of[cluster] = kept++;
+  }
+  planes.resize(std::size_t{kept} * complex.rank);
+  count = kept;
+  for (std::uint32_t& cluster : cluster_of)
+    if (cluster != kNone) cluster = new_of[cluster];
+}
+
 std::vector<double> FacetClusters::planes_of(const SimplicialComplex& complex) const {
   std::vector<double> all(count * complex.rank);
   for (std::uint32_t cluster = 0; cluster < count; ++cluster)

@@ -37,6 +37,9 @@ struct FacetClusters {
   std::size_t facets_of(std::size_t simplices_in_all) const;
   /// Instead of lists.
   void number_rows(std::size_t row_count);
+  /// Clusters of one simplex whose plane is parallel to its own, but for rounding, become facets of their own.
+  /// Of clusters that are not listed, one plane each.
+  void release_lone_simplices(const SimplicialComplex& complex);
   /// All planes, count x rank.
   std::vector<double> planes_of(const SimplicialComplex& complex) const;
   /// Those of the simplices too, which may be solved again.

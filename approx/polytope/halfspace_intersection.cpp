@@ -175,6 +175,7 @@ class Intersector {
     HullOptions within;
     within.limits.max_seconds = end_.seconds_left();
     within.limits.max_memory_bytes = options_.limits.max_memory_bytes;
+    within.threads = options_.threads;
     within.stop = options_.stop;
     const PolytopeMeasure measure = measure_polytope(planes, polytope, within);
     result_.measure_status = measure.status;

@@ -260,6 +260,7 @@ std::optional<PolytopeMeasure> measure_by_hull(std::size_t rank, const PlanePoly
   HullOptions options;
   options.limits = limits.limits;
   options.limits.max_facets = simplices;
+  options.threads = limits.threads;
   options.stop = limits.stop;
   const Hull hull = convex_hull(PointView::row_major(polytope.vertices.data(), vertices, rank), options);
   if (hull.status != HullStatus::kComplete || hull.rank < rank) return std::nullopt;

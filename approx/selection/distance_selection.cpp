@@ -48,8 +48,8 @@ class DistanceChoice {
       const double area_a = hull.area_of(a), area_b = hull.area_of(b);
       return area_a != area_b ? area_a > area_b : a < b;
     });
-    if (facets_.size() > kMostCandidates) {
-      std::vector<FacetId> few(facets_.begin(), facets_.begin() + kMostCandidates);
+    if (const std::size_t most = std::max<std::size_t>(kMostCandidates, count); facets_.size() > most) {
+      std::vector<FacetId> few(facets_.begin(), facets_.begin() + static_cast<std::ptrdiff_t>(most));
       planes_ = outer_planes_about_interior(hull, few);
       if (is_bounded()) facets_ = std::move(few);
     }

@@ -188,6 +188,7 @@ std::optional<VolumeCover> cover_for_volume(const SimplicialComplex& complex, co
     }
     cluster = found;
   }
+  clusters.release_lone_simplices(complex);
   return VolumeCover{.is_bounded = true, .is_cut_short = is_cut_short, .clusters = std::move(clusters)};
 }
 

@@ -105,8 +105,8 @@ class VolumeChoice {
       return area_a != area_b ? area_a > area_b : a < b;
     });
     facets_ = std::move(ids);
-    if (facets_.size() > kMostCandidates) {
-      Ids few(facets_.begin(), facets_.begin() + kMostCandidates);
+    if (const std::size_t most = std::max<std::size_t>(kMostCandidates, count); facets_.size() > most) {
+      Ids few(facets_.begin(), facets_.begin() + static_cast<std::ptrdiff_t>(most));
       std::swap(few, facets_);
       planes_ = even_planes();
       if (is_bounded(planes_)) return;

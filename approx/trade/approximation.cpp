@@ -99,7 +99,9 @@ FacetClusters Approximation::run_merging() {
   hull_.chosen.width_cap = cap;
   hull_.chosen.merges = counts.merges;
   hull_.chosen.refused_merges = counts.refused;
-  return clusters_of(covering, *space_);
+  FacetClusters clusters = clusters_of(covering, *space_);
+  clusters.release_lone_simplices(growth_.work().complex);
+  return clusters;
 }
 
 /// The space of fits: vertices; points outside that reach furthest, one a simplex at most; those met before.

@@ -64,13 +64,26 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
   return file;
 }
 
+/// Is the text a table of 1-d halfspaces, whose first row may look like the header of a point?
+bool has_two_columns(const TextSource& source) {
+  std::vector<double> row;
+  for (const char* place = source.begin(); (place = skip_comment_lines(source, place)) != source.end();) {
+    const char* comment = nullptr;
+    row.clear();
+    if (read_number_line(source, place, row, &comment) != 2) return false;
+  }
+  return true;
+}
+
 /// A point in front of the halfspaces: d and 1, d numbers, and more behind them. Returns the place behind the
 /// point, or null when there is none.
 const char* read_interior_point(const TextSource& source, TextKind kind, std::vector<double>& point) {
   const QhullHeader header = read_qhull_header(source);
   if (header.count != std::size_t{1}) return nullptr;
-  // A row of a table may begin with these.
-  if (kind == TextKind::kByContent && header.data != source.end() && header.data[-1] != '\n') return nullptr;
+  // A row of a table may begin with these, or be these.
+  if (kind == TextKind::kByContent &&
+      ((header.data != source.end() && header.data[-1] != '\n') || has_two_columns(source)))
+    return nullptr;
   const std::size_t dimension = *header.dimension;
   const char* place = header.data;
   while (point.size() < dimension && (place = skip_comment_lines(source, place)) != source.end()) {

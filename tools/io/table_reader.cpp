@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -199,6 +200,35 @@ bool is_header_by_quotes(const TextSource& source, const FieldLine& line, const 
   return below != source.end() && !are_all_quoted({source, source.line_end(below), line.separator}, below);
 }
 
+/// A word, and no way to say that a value is missing.
+bool is_name(const std::string& field) {
+  if (field.empty() || names_missing_value(field) || names_non_finite(field)) return false;
+  const auto first = static_cast<unsigned char>(field.front());
+  return std::isalpha(first) != 0 || first == '_' || first >= 0x80;
+}
+
+/// 0, 1, 2, .. above columns that have no names, behind the index column's empty one, as pandas writes them.
+bool are_counted(std::span<const std::string> fields) {
+  if (fields.size() < 2 || !fields[0].empty()) return false;
+  for (std::size_t k = 1; k < fields.size(); ++k)
+    if (fields[k] != std::to_string(k - 1)) return false;
+  return true;
+}
+
+/// Names of which some are numbers, as years are: another one is a word above a number.
+bool is_header_by_column(std::span<const std::string> fields, const TextSource& source,
+                         const FieldLine& line) {
+  const char* const below = line.end == source.end() ? line.end : skip_empty_lines(source, line.end + 1);
+  if (below == source.end()) return false;
+  const auto length = static_cast<std::size_t>(source.line_end(below) - below);
+  const std::vector<std::string> values = split({below, length}, line.separator);
+  if (values.size() != fields.size()) return false;
+  if (are_counted(fields)) return true;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    if (is_name(fields[k]) && is_number(values[k])) return true;
+  return false;
+}
+
 [[noreturn]] void fail_without_name(const TextSource& source, const char* line, std::size_t column,
                                     const ColumnChoice& choice) {
   source.fail(
@@ -215,7 +245,8 @@ TableLayout read_first_line(const TextSource& source, const char* line, const ch
   while (!content.empty() && content.back() == '\r') content.remove_suffix(1);
   std::vector<std::string> fields = split(content, layout.separator);
   const FieldLine first{source, end, layout.separator};
-  layout.has_header = (is_header(fields) || is_header_by_quotes(source, first, line)) &&
+  layout.has_header = (is_header(fields) || is_header_by_quotes(source, first, line) ||
+                       is_header_by_column(fields, source, first)) &&
                       !(choice.is_all() && is_missing_row(fields));
   if (layout.has_header) {
     layout.columns = fields.size();
