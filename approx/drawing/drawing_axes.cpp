@@ -3,10 +3,13 @@
 #include "approx/drawing/drawing_axes.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+
+#include "approx/geometry/subspace.h"
 
 namespace ndhull {
 namespace {
@@ -33,6 +36,12 @@ Eigen::MatrixXd covariance(const PointView& points, std::span<const double> cent
   }
   const auto count = static_cast<double>(points.rows);
   return moments / count - (sum / count) * (sum / count).transpose();
+}
+
+/// Directions that span the same, at right angles.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(columns);
+  return factors.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
 /// "62 %: 0.58 carat + 0.57 x - 0.1 depth", the largest parts first.
@@ -84,13 +93,19 @@ DrawingAxes column_axes(std::span<const std::size_t> columns, std::span<const do
 }
 
 DrawingAxes principal_axes(const PointView& points, std::size_t count, std::span<const double> centre,
-                           std::span<const double> extents, std::span<const std::string> column_names) {
+                           std::span<const double> extents, std::span<const std::string> column_names,
+                           std::span<const double> equations) {
   const auto dimension = static_cast<Eigen::Index>(points.dimension);
   Eigen::VectorXd scales = Eigen::VectorXd::Ones(dimension);
   for (std::size_t k = 0; k < extents.size(); ++k) {
     scales[static_cast<Eigen::Index>(k)] = extents[k] > 0.0 ? 1.0 / extents[k] : 0.0;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance(points, centre, scales));
+  // Where points vary less than rounding of how they vary most, all directions look alike: those out of their
+  // subspace must not be among them.
+  const Eigen::MatrixXd inside =
+      orthonormal(scales.asDiagonal() * subspace_directions(points.dimension, equations));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inside.transpose() *
+                                                              covariance(points, centre, scales) * inside);
   const Eigen::VectorXd variances = solver.eigenvalues().cwiseMax(0.0);
   const double all = std::max(variances.sum(), std::numeric_limits<double>::min());
   DrawingAxes axes;
@@ -98,8 +113,8 @@ DrawingAxes principal_axes(const PointView& points, std::size_t count, std::span
   axes.centre.assign(centre.begin(), centre.end());
   axes.origin.assign(count, 0.0);
   for (std::size_t axis = 0; axis < count; ++axis) {
-    const Eigen::Index column = dimension - 1 - static_cast<Eigen::Index>(axis);  // ascending eigenvalues
-    Eigen::VectorXd component = solver.eigenvectors().col(column);
+    const Eigen::Index column = inside.cols() - 1 - static_cast<Eigen::Index>(axis);  // ascending eigenvalues
+    Eigen::VectorXd component = inside * solver.eigenvectors().col(column);
     Eigen::Index largest = 0;
     component.cwiseAbs().maxCoeff(&largest);
     if (component[largest] < 0.0) component = -component;

@@ -42,10 +42,12 @@ DrawingAxes column_axes(std::span<const std::size_t> columns, std::span<const do
 /// The `count` directions in which the points vary most, after scaling column k by 1 / extents[k].
 ///
 /// extents   dimension numbers, or empty: no scaling. A column of extent 0 has no part in any component.
+/// equations as Hull::subspace_equations; empty unless the points are flat. Components stay in the subspace.
 /// Signs     a component's largest part is positive, so the axes do not depend on the eigenvalue routine.
 /// Cost      O(rows dimension^2): one pass over all points.
 /// Precondition  count <= rank of the points.
 DrawingAxes principal_axes(const PointView& points, std::size_t count, std::span<const double> centre,
-                           std::span<const double> extents, std::span<const std::string> column_names);
+                           std::span<const double> extents, std::span<const std::string> column_names,
+                           std::span<const double> equations = {});
 
 }  // namespace ndhull

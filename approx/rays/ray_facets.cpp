@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "approx/geometry/frame_planes.h"
 #include "approx/geometry/orthonormal.h"
 #include "approx/hull.h"
 #include "core/linear/dense_solve.h"
@@ -41,8 +40,7 @@ struct FacetGeometry::InPlane {
 
 FacetGeometry::FacetGeometry(const RayShooter& shooter, double max_seconds)
     : shooter_(shooter), max_seconds_(max_seconds) {
-  const ScaledRatio scale = volume_scale(shooter.frame());
-  volume_scale_ = std::ldexp(scale.ratio, scale.exponent);
+  volume_scale_ = volume_scale(shooter.frame());
   const Frame& frame = shooter.frame();
   const auto rank = static_cast<Index>(frame.rank);
   const RowMatrix identity = RowMatrix::Identity(rank, rank);
@@ -72,10 +70,13 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   return result;
 }
 
-double FacetGeometry::area_per_determinant(const std::vector<double>& plane) const {
+double FacetGeometry::area_of(double determinant, const std::vector<double>& plane) const {
   const Eigen::Map<const Eigen::VectorXd> a(plane.data(), to_input_.rows());
   const double per_height = (to_input_.transpose() * a).norm();
-  return per_height / (std::tgamma(static_cast<double>(plane.size())) * volume_scale_);
+  // In many dimensions the scale may be no double where the area is one.
+  const double scaled =
+      determinant * per_height / (std::tgamma(static_cast<double>(plane.size())) * volume_scale_.ratio);
+  return std::ldexp(scaled, -volume_scale_.exponent);
 }
 
 std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& points) const {
@@ -96,7 +97,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   facet.vertices = on_plane;
   facet.plane = fit_plane(on_plane);
   const double simplex_determinant = std::abs(SquareFactors(rows_of(points, basis)).determinant());
-  facet.area = simplex_determinant * area_per_determinant(facet.plane);
+  facet.area = area_of(simplex_determinant, facet.plane);
   if (on_plane.size() == rank) return facet;
   if (rank - 1 > kMaxRank) {
     facet.area_is_whole = false;
@@ -110,7 +111,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   // determinant of the facet's cone = (rank - 1)! area height, height = 1 / |a|
   const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), static_cast<Index>(rank));
   const double determinant = within.hull.volume * std::tgamma(static_cast<double>(rank)) / plane.norm();
-  facet.area = determinant * area_per_determinant(facet.plane);
+  facet.area = area_of(determinant, facet.plane);
   return facet;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "approx/geometry/frame_planes.h"
 #include "approx/rays/ray_shooting.h"
 
 namespace ndhull {
@@ -45,12 +46,13 @@ class FacetGeometry {
 
  private:
   struct InPlane;
-  double area_per_determinant(const std::vector<double>& plane) const;
+  /// [area] of the simplex, or of the sum of simplices, with this determinant.
+  double area_of(double determinant, const std::vector<double>& plane) const;
   InPlane project(const RayFacet& facet) const;
 
   const RayShooter& shooter_;
   double max_seconds_;
-  double volume_scale_ = 0.0;  // frame volume per input volume
+  ScaledRatio volume_scale_;  // frame volume per input volume
   // rank x dimension: a plane times this is its normal in input units, of length one over its height.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> to_input_;
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "approx/facets/exact_facets.h"
-#include "approx/geometry/boundedness.h"
 #include "approx/slabs/merge_rule.h"
 #include "approx/slabs/segment_merge.h"
 #include "approx/slabs/slab_partition.h"
@@ -160,12 +159,7 @@ void Approximation::make_space(bool with_left_out) {
 /// At least rank + 1 facets, whose outer planes bound a region. With many facets of which none is wider than
 /// the hull is high everywhere, that is certain.
 bool Approximation::keeps_hull(const Covering& covering) const {
-  if (covering.planes.size() <= space_->rank()) return false;
-  if (covering.planes.size() > kSurelyBounded) return true;
-  std::vector<double> normals;
-  for (const FittedPlane& plane : covering.planes)
-    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
-  return find_open_direction(normals, space_->rank()).bounded;
+  return covering.planes.size() > space_->rank() && bounds_region(growth_.work().complex, *space_, covering);
 }
 
 /// Of a coarse hull: is it worth its time to grow the exact one before anything else is looked for?

@@ -17,6 +17,40 @@ namespace {
 /// [ratio] A known facet that faces a direction less than this closes hardly more than there is.
 constexpr double kFacesEnough = 0.1;
 
+std::vector<double> normals_of_some_simplices(const SimplicialComplex& complex, const WidthSpace& space) {
+  constexpr std::size_t kEnough = 256;
+  std::vector<double> normals, normal(space.rank());
+  const std::size_t step = complex.row_count / kEnough + 1;
+  for (std::size_t row = 0; row < complex.row_count; row += step) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    space.normal_of(complex.plane(SimplexId{static_cast<std::uint32_t>(row)}), normal.data());
+    normals.insert(normals.end(), normal.begin(), normal.end());
+  }
+  return normals;
+}
+
+/// The normals of few wide facets may be balanced, or span the space, by rounding alone, which closes a region
+/// some 1e12 times the hull: those of simplices say what is rounding.
+Boundedness open_but_for_rounding(const SimplicialComplex& complex, const WidthSpace& space,
+                                  const std::vector<double>& normals) {
+  constexpr double kStretched = 30.0;  // rounding, some 1e-12, is far below what counts as open then
+  const std::size_t rank = space.rank();
+  Boundedness found = find_open_direction(normals, rank);
+  if (!found.bounded || found.stretch < kStretched) return found;
+  std::vector<double> all = normals_of_some_simplices(complex, space);
+  all.insert(all.begin(), normals.begin(), normals.end());
+  std::vector<std::uint32_t> own(normals.size() / rank);
+  std::iota(own.begin(), own.end(), 0u);
+  return find_open_direction_of(all, rank, own);
+}
+
+std::vector<double> normals_of(const Covering& covering) {
+  std::vector<double> normals;
+  for (const FittedPlane& plane : covering.planes)
+    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
+  return normals;
+}
+
 class RegionCloser {
  public:
   RegionCloser(const SimplicialComplex& complex, const WidthSpace& space, const double* coordinates,
@@ -27,17 +61,15 @@ class RegionCloser {
         known_(space.table().count() > space.vertex_count() ? known : nullptr),
         covering_(covering),
         rank_(space.rank()),
-        size_of_(covering.planes.size(), 0) {
+        size_of_(covering.planes.size(), 0),
+        normals_(normals_of(covering)) {
     for (const std::uint32_t facet : covering.facet_of)
       if (facet != kNone) ++size_of_[facet];
-    for (const FittedPlane& plane : covering.planes)
-      normals_.insert(normals_.end(), plane.normal.begin(), plane.normal.end());
   }
 
   std::size_t run() {
     for (std::size_t left = 8 * rank_; left > 0; --left) {
-      Boundedness found = find_open_direction(normals_, rank_);
-      if (found.bounded) found = open_but_for_rounding();
+      const Boundedness found = open_but_for_rounding(complex_, space_, normals_);
       if (found.bounded || !close(found.direction)) break;
     }
     return taken_;
@@ -49,31 +81,6 @@ class RegionCloser {
     double most = 0.0;
     std::uint32_t row = kNone;
   };
-
-  /// The normals of few wide facets may all be orthogonal to something but for rounding, which then closes a
-  /// region some 1e12 times the hull: the normals of its simplices say what is rounding.
-  Boundedness open_but_for_rounding() {
-    if (shape_.empty()) {
-      constexpr std::size_t kEnough = 512;
-      shape_ = normals_of_some_simplices(kEnough);
-    }
-    std::vector<double> all = normals_;
-    all.insert(all.end(), shape_.begin(), shape_.end());
-    std::vector<std::uint32_t> own(normals_.size() / rank_);
-    std::iota(own.begin(), own.end(), 0u);
-    return find_open_direction_of(all, rank_, own);
-  }
-
-  std::vector<double> normals_of_some_simplices(std::size_t count) const {
-    std::vector<double> normals, normal(rank_);
-    const std::size_t step = complex_.row_count / count + 1;
-    for (std::size_t row = 0; row < complex_.row_count; row += step) {
-      if (complex_.state[row] != SimplexState::kLive) continue;
-      space_.normal_of(complex_.plane(SimplexId{static_cast<std::uint32_t>(row)}), normal.data());
-      normals.insert(normals.end(), normal.begin(), normal.end());
-    }
-    return normals;
-  }
 
   /// False: all that face it are facets already.
   bool close(std::span<const double> direction) {
@@ -191,7 +198,7 @@ class RegionCloser {
   Covering& covering_;
   std::size_t rank_;
   std::vector<std::uint32_t> size_of_;
-  std::vector<double> normals_, shape_;
+  std::vector<double> normals_;
   std::vector<std::uint8_t> is_wanted_;
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
@@ -199,6 +206,11 @@ class RegionCloser {
 };
 
 }  // namespace
+
+bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering) {
+  return covering.planes.size() > kSurelyBounded ||
+         open_but_for_rounding(complex, space, normals_of(covering)).bounded;
+}
 
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
                                   const double* coordinates, HullFacets* known, Covering& covering) {

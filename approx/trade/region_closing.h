@@ -15,6 +15,12 @@ namespace ndhull {
 /// So many facets of which none is wider than the hull is high everywhere bound a region.
 inline constexpr std::size_t kSurelyBounded = 1000;
 
+/// Do the facets' planes bound a region, and not by the rounding of their normals alone? Of more than
+/// kSurelyBounded facets: yes.
+/// Cost  a search for an open direction (approx/geometry/boundedness.h);
+///       where that stretched normals much two.
+bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering);
+
 /// Facets of the hull of all points of a WidthSpace, which growth may have left out points of. They are
 /// facets however the hull grows.
 struct HullFacets {

@@ -101,6 +101,32 @@ TEST(MergeLaw, CosineMergesNeighboursThatAgree) {
   }
 }
 
+// What merging leaves as it was is a simplex, and is printed as one.
+TEST(MergeLaw, FacetsOfOneSimplexAreSimplicial) {
+  HullOptions cosine, radius, for_volume;
+  cosine.accuracy.max_cosine = 0.999;
+  radius.accuracy.centrum_radius.value = 0.002;
+  for_volume.accuracy.facets = 300;
+  for_volume.accuracy.objective = FacetObjective::kVolume;
+  const PointSet set = rbox("200 D5 t1");
+  for (const HullOptions& options : {cosine, radius, for_volume}) {
+    const Hull hull = hull_of(set, options);
+    std::size_t lone = 0;
+    for (std::uint32_t id = 0; id < hull.facet_count(); ++id)
+      lone += hull.simplex_count_of(FacetId{id}) == 1 ? 1U : 0U;
+    EXPECT_GT(lone, 0U);
+    EXPECT_LT(lone, hull.facet_count());
+    EXPECT_GE(hull.simplicial_facet_count(), lone * 9 / 10);  // a plane may be turned to a point left out
+    EXPECT_LE(hull.simplicial_facet_count(), lone);
+    EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+    const Verification verification = verify_hull(set.view(), hull, VerifyMode::kFloating);
+    EXPECT_TRUE(verification.passed()) << verification.first_failure();
+  }
+  cosine.accuracy.max_cosine = 1.0;
+  const Hull whole = hull_of(set, cosine);
+  EXPECT_EQ(whole.simplicial_facet_count(), whole.simplex_count());
+}
+
 // A facet may hold more simplices that face away from it than others: slabs thicker than the lens, or planes
 // hardly more than a simplex has.
 TEST(AreaLaw, NoFacetHasLessThanNone) {

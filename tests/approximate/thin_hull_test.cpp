@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "approx/polytope/outer_volume.h"
 #include "tests/approximate/approximate_laws.h"
 #include "tests/hull/hull_support.h"
 
@@ -86,6 +87,27 @@ TEST(ThinHullLaw, WidthIsMetWherePointsSharePlanes) {
       const Hull hull = hull_of(set, options);
       EXPECT_LE(hull.max_facet_width, 0.01 * percent * extent_of(set));
       expect_approximate_laws(hull, set.view());
+    }
+  }
+}
+
+// Few wide facets of a cross-polytope may all be parallel to an axis but for rounding, which closes nothing.
+TEST(RegionLaw, CrossPolytopesAreClosedByMoreThanRounding) {
+  for (const std::size_t d : {3U, 4U, 5U, 6U}) {
+    PointSet set{d, std::vector<double>(2 * d * d, 0.0), ""};
+    for (std::size_t row = 0; row < 2 * d; ++row) set.row(row)[row % d] = row < d ? 1.0 : -1.0;
+    std::vector<HullOptions> tried;
+    for (std::uint64_t facets = d + 1; facets < std::uint64_t{1} << d; ++facets)
+      tried.emplace_back().accuracy.facets = facets;
+    for (const double width : {0.3, 0.45, 0.55, 0.58, 0.6, 0.7, 0.9})
+      tried.emplace_back().accuracy.width = {width, false};
+    for (const HullOptions& options : tried) {
+      SCOPED_TRACE(std::to_string(d) + "-d, " + std::to_string(options.accuracy.facets) + " facets, width " +
+                   std::to_string(options.accuracy.width.value));
+      const Hull hull = hull_of(set, options);
+      const OuterVolume outer = outer_volume(hull, {});
+      ASSERT_TRUE(outer.volume.has_value()) << outer.reason;
+      EXPECT_LT(*outer.volume, 1e9 * hull.volume);
     }
   }
 }

@@ -36,6 +36,24 @@ def test_hull_extreme_largest_and_view():
     one_error_line(run("view", FOLDER / "names.json", "--columns", "1", "-o", FOLDER / "n.svg", exit_code=1), "usage")
 
 
+def test_names_that_are_numbers():
+    # Years, or the numbers that pandas gives columns: a word above numbers, or an index without a name, tells.
+    values = rbox("20 D2 t5", FOLDER / "two.npy")
+    for header, columns, names in (("mass,2019,2020", "2,3", ["2019", "2020"]), (",0,1", "2-3", ["0", "1"]),
+                                   ("mass,2019,", "mass,2019", None)):  # fmt: skip
+        table = FOLDER / "years.csv"
+        table.write_text("\n".join([header] + [f"{row},{a!r},{b!r}" for row, (a, b) in enumerate(values.tolist())]))
+        report = report_of(table, "--columns", columns)
+        assert report["input"]["points"] == 20, (header, report["input"])
+        assert names is None or report["input"].get("columns", names) == names, report["input"]
+    # Text in every row is no header's, nor is a value that is missing.
+    (FOLDER / "text.csv").write_text("a,1,2\nb,3,5\nc,4,1\n")
+    assert report_of(FOLDER / "text.csv", "--columns", "2,3")["input"]["points"] == 3
+    for first in ("NA,1,2", ",1,2", "nan,1,2"):
+        (FOLDER / "missing.csv").write_text(f"{first}\n1,3,5\n1,4,1\n")
+        assert report_of(FOLDER / "missing.csv", "--columns", "2,3")["input"]["points"] == 3, first
+
+
 def test_contains_and_verify():
     rbox("300 s D4 t1", FOLDER / "points.npy")
     queries = rbox("2000 D4 t2", FOLDER / "queries.npy")

@@ -72,6 +72,27 @@ def test_keep():
     assert "every point is within" in text and "vertices" in text, text
 
 
+def test_keep_proves_nothing_of_points_not_looked_at():
+    folder = fresh_folder("extreme_limit")
+    path, distances = folder / "points.npy", folder / "distances.npy"
+    x = numpy.random.default_rng(1).normal(size=(30_000, 5))
+    numpy.save(path, x / numpy.linalg.norm(x, axis=1)[:, None])
+    limited = (path, "--keep", 2500, "--max-seconds", 0.05)
+    report = extreme(*limited)
+    kept = report["kept"]
+    assert report["status"] == "time_limit" and (kept is None or kept["max_distance"] is kept["distances"] is None)
+    assert "every point is within" not in run("extreme", *limited).stdout
+    # Measured, it is known; of no points all are infinitely far.
+    for seconds in (0.05, 1e-6):
+        report = extreme(path, "--keep", 5, "--max-seconds", seconds, "--distances", distances)
+        found = numpy.load(distances)
+        assert found.shape == (30_000,)
+        if report["kept"] is None:
+            assert (found == numpy.inf).all()
+        else:
+            assert report["kept"]["max_distance"] == found.max() > 0.5
+
+
 def test_bad_usage():
     folder = fresh_folder("extreme_bad")
     path = folder / "points.npy"

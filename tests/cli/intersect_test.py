@@ -194,6 +194,9 @@ def test_interior_points():
     assert json.loads(inside)["interior_point"] == [0.5, -0.5]
     in_front = json.loads(run("intersect", "-", "--report", "-", stdin=b"2 1\n0.25 0.25\n" + rows).stdout)
     assert in_front["interior_point"] == [0.25, 0.25]
+    # The first row of a table of 1-d halfspaces looks like the header of a point.
+    table = json.loads(run("intersect", "-", "--report", "-", stdin=b"2 1\n-1 -3\n1 -5\n").stdout)
+    assert table["status"] == "bounded" and table["volume"] == 2.5, table
     done = run("intersect", "-", "--interior-point", "0 1.5", exit_code=1, stdin=rows)
     one_error_line(done, "bad-halfspace")
     assert "halfspace 2 (counted from 0): found the interior point 0.5 above" in done.stderr

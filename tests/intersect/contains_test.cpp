@@ -42,6 +42,34 @@ TEST(ContainsOracle, DistancesAreThoseOfAllPairs) {
   }
 }
 
+// Far from the origin planes of several blocks look alike but for rounding.
+TEST(ContainsOracle, DistancesAreThoseOfAllPairsWhereRoundingHidesWhichPlaneIsNearest) {
+  constexpr std::size_t kPlanes = 600, kDimension = 3;
+  PointSet planes = family_points(PointFamily::kGaussian, kPlanes, kDimension + 1, 5);
+  for (std::size_t plane = 0; plane < kPlanes; ++plane) {
+    const std::span<double> row = planes.row(plane);
+    double at_centre = 0.0;
+    for (std::size_t k = 0; k < kDimension; ++k) at_centre += row[k] = 1.0 + 1e-3 * row[k];
+    row[kDimension] = 2e-8 + 1e-9 * row[kDimension] - 1e6 * at_centre;
+  }
+  const PointSet queries{kDimension, {1e6, 1e6, 1e6, 1e6, 1e6, 1e6 + 1e-9}, ""};
+  const std::vector<PlaneDistance> found = distances_to_planes(queries.view(), planes.coordinates);
+  for (std::size_t query = 0; query < queries.rows(); ++query) {
+    long double most = -HUGE_VALL;
+    for (std::size_t plane = 0; plane < kPlanes; ++plane) {
+      const std::span<const double> row = planes.row(plane);
+      __float128 value = row[kDimension];
+      long double length_sq = 0.0L;
+      for (std::size_t k = 0; k < kDimension; ++k) {
+        value += static_cast<__float128>(row[k]) * queries.row(query)[k];
+        length_sq += static_cast<long double>(row[k]) * row[k];
+      }
+      most = std::max(most, static_cast<long double>(value) / std::sqrt(length_sq));
+    }
+    EXPECT_NEAR(found[query].distance, static_cast<double>(most), 1e-14 * static_cast<double>(most));
+  }
+}
+
 TEST(ContainsLaw, SignsOnThePlanesAreExact) {
   const double third = 1.0 / 3.0;
   const std::vector<double> planes{1.0, 1.0, 1.0, -1.0, -1.0, 0.0, 0.0, -1.0, 0.0, 3.0, 0.0, -1.0};

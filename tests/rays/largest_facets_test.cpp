@@ -180,6 +180,28 @@ TEST(LargestFacetsExample, ThirtyDimensionsAreNotTooMany) {
   EXPECT_NEAR(all.facets[30].area * std::tgamma(30.0), 1.0, 1e-9);
 }
 
+// The scale of a 50-d volume is no double where coordinates are a million; areas are.
+TEST(LargestFacetsLaw, AreasScaleInFiftyDimensions) {
+  constexpr std::size_t kDimension = 50;
+  constexpr int kExponent = 20;
+  PointSet set = family_points(PointFamily::kGaussian, 120, kDimension, 3);
+  LargestOptions options;
+  options.method = LargestMethod::kRays;
+  options.count = 5;
+  options.rays = 50;
+  const LargestFacets small = largest_facets(set.view(), options);
+  for (double& coordinate : set.coordinates) coordinate = std::ldexp(coordinate, kExponent);
+  const LargestFacets large = largest_facets(set.view(), options);
+  ASSERT_EQ(small.facets.size(), large.facets.size());
+  for (std::size_t id = 0; id < small.facets.size(); ++id) {
+    EXPECT_EQ(vertex_ids(small.facets[id]), vertex_ids(large.facets[id]));
+    EXPECT_GT(small.facets[id].area, 0.0);
+    EXPECT_NEAR(std::ldexp(small.facets[id].area, kExponent * (static_cast<int>(kDimension) - 1)) /
+                    large.facets[id].area,
+                1.0, 1e-9);
+  }
+}
+
 TEST(LargestFacetsLaw, SameBytesForAnyNumberOfThreads) {
   const PointSet set = family_points(PointFamily::kGaussian, 5000, 9, 4);
   const LargestFacets one =

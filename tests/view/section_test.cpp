@@ -291,6 +291,25 @@ TEST(DrawingAxesExample, PrincipalComponentsFindTheLongDirections) {
   EXPECT_EQ(axes.names, (std::vector<std::string>{"PC1", "PC2"}));
 }
 
+// Of points so flat that their thinnest direction is lost in the rounding of a covariance.
+TEST(DrawingAxesLaw, ComponentsStayInTheSubspace) {
+  const PointSet plate = sphere(200, 3);
+  PointSet set{5, {}, ""};
+  for (std::size_t row = 0; row < plate.rows(); ++row) {
+    const double a = plate.row(row)[0], b = plate.row(row)[1], c = 1e-9 * plate.row(row)[2];
+    set.coordinates.insert(set.coordinates.end(), {a + c, b - c, a - b + c, 0.5 * a + b, a + 2.0 * b});
+  }
+  const Hull hull = convex_hull(set.view());
+  ASSERT_EQ(hull.rank, 3U);
+  const DrawingAxes axes = principal_axes(set.view(), 3, hull.interior_point, {},
+                                          column_names_or_numbers({}, 5), hull.subspace_equations);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t row = 0; row < hull.subspace_equations.size(); row += 6)
+      EXPECT_NEAR(std::inner_product(axes.direction(axis).begin(), axes.direction(axis).end(),
+                                     hull.subspace_equations.begin() + static_cast<std::ptrdiff_t>(row), 0.0),
+                  0.0, 1e-12);
+}
+
 TEST(DrawingAxesLaw, DirectionsAndMeasuresAreDualInTheUnitCube) {
   const PointSet set = sphere(300, 4);
   const std::vector<double> centre(4, 0.0), extents{2.0, 300.0, 0.0, 1e-3};

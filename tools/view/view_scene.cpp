@@ -56,7 +56,7 @@ DrawingAxes axes_of(const ViewedHull& viewed, const ViewWish& wish) {
   if (wish.columns.empty()) {
     check_extents(points);
     return principal_axes(points, std::min<std::size_t>(3, viewed.rank), viewed.facets.centre, viewed.extents,
-                          names);
+                          names, viewed.facets.subspace_equations);
   }
   for (const std::size_t column : wish.columns) {
     if (wish.kind == ViewKind::kShadow || !leaves_subspace(viewed.facets, column)) continue;
