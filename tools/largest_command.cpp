@@ -108,8 +108,10 @@ void add_largest_command(CLI::App& app, int& exit_code) {
   add_search_options(*command, *arguments);
   add_output_options(*command, *arguments);
   command->footer(
-      "Every facet given is a facet of the hull, its outer plane certified. Rays may miss larger ones: the\n"
-      "report says how large a share of the directions an unseen facet may have, and estimates the recall.\n"
+      "Every facet given is a facet of the hull, its outer plane certified; with --method hull and a limit "
+      "that\n"
+      "ended it, of the hull so far. Rays may miss larger ones: the report says how large a share of the\n"
+      "directions an unseen facet may have, and estimates the recall.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull largest points.npy -n 100 --planes outer.npy --report report.json"));

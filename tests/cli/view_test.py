@@ -9,7 +9,7 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import numpy
-from program import DIAMONDS, fresh_folder, one_error_line, run, run_tests
+from program import DIAMONDS, fresh_folder, one_error_line, rbox, run, run_tests
 
 SVG = "{http://www.w3.org/2000/svg}"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -289,6 +289,17 @@ def test_what_cannot_be_drawn_is_one_line_and_no_file():
         one_error_line(done, code)
         assert word in done.stderr, (arguments, done.stderr)
         assert sorted(folder.iterdir()) == before, arguments
+
+
+def test_a_report_has_its_hull():
+    folder = fresh_folder("view_report")
+    rbox("100 s D4 t1", folder / "points.npy")
+    run("hull", folder / "points.npy", "--report", folder / "hull.json", "--facet-list", "--quiet")
+    for words in (("--width", "5%"), ("--facets", "20"), ("--outside-width", "1%"), ("--columns", "1,2,3")):
+        done = run("view", folder / "hull.json", *words, "-o", folder / "hull.svg", exit_code=1)
+        one_error_line(done, "usage")
+        assert "report" in done.stderr and not (folder / "hull.svg").exists()
+    run("view", folder / "hull.json", "--max-seconds", 5, "-o", folder / "hull.svg")
 
 
 if __name__ == "__main__":

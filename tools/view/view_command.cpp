@@ -92,10 +92,15 @@ ViewWish wish_of(const ViewArguments& arguments, const ViewedHull& viewed) {
 ViewedHull load(const ViewArguments& arguments, Interrupt& interrupt) {
   FileBytes bytes = FileBytes::read(arguments.source_path);
   if (is_report(bytes, arguments.source_path)) {
-    if (arguments.columns.is_all()) return read_report(bytes, arguments.source_path);
-    throw Error(ErrorCode::kUsage, fmt::format("--columns: found a report, {}, which names its columns, "
-                                               "expected points; leave the option out",
-                                               display_name(arguments.source_path)));
+    const auto refuse = [&](std::string_view option, std::string_view reason) {
+      return Error(ErrorCode::kUsage,
+                   fmt::format("{}: found a report, {}, which {}, expected points; leave the option out",
+                               option, display_name(arguments.source_path), reason));
+    };
+    if (!arguments.columns.is_all()) throw refuse("--columns", "names its columns");
+    if (!arguments.hull.complete().accuracy.is_exact())
+      throw refuse("options of an approximate hull", "has the facets of its hull");
+    return read_report(bytes, arguments.source_path);
   }
   ProgressLine progress(false, false);  // on a terminal only
   PointFile points = parse_points(std::move(bytes), arguments.source_path, arguments.columns);
