@@ -5,6 +5,7 @@
 
 # The compiler must not fuse a*b + c on its own: the same source would round differently from machine to
 # machine, and results are the same bytes everywhere. An explicit fused multiply-add stays what it is.
+# Nobody reads what math functions leave in errno: without it a square root is one instruction.
 add_library(ndhull_arithmetic INTERFACE)
 target_compile_options(ndhull_arithmetic INTERFACE -ffp-contract=off -fno-math-errno)
 
