@@ -265,5 +265,14 @@ def test_facets_for_volume_are_certified_planes_of_the_exact_hull():
     one_error_line(run("hull", points, "--objective", "volume", exit_code=1), "usage")
 
 
+def test_more_facets_than_are_looked_at_for_a_measure():
+    folder = fresh_folder("selection_many")
+    rbox("400 s D6 t1", folder / "points.npy")
+    for measure in ("volume", "distance"):
+        planes = folder / f"{measure}.npy"
+        report = report_of(folder / "points.npy", "--largest", 20_500, "--select", measure, "--planes", planes)
+        assert report["facets"] > 21_000 and len(numpy.load(planes)) == 20_500, (measure, report["facets"])
+
+
 if __name__ == "__main__":
     run_tests(globals())
