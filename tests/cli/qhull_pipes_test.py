@@ -59,6 +59,9 @@ def test_file_names_with_blanks_as_the_shell_hands_them_on():
 def test_the_summary_stands_before_the_formats():
     lines = run("qhull", "Tz s Fx", stdin=points("c")).stdout.splitlines()
     assert "Convex hull of 8 points" in lines[1] and lines[-9:] == ["8", *map(str, range(8))], lines
+    for options, has_area in (("Fx", False), ("Fa", True), ("FS", True), ("PA3 Fx", True), ("PF0.1 Fx", True)):
+        text = run("qhull", f"Tz Pp s {options}", stdin=points("c")).stdout
+        assert ("facet area:" in text) == has_area, (options, text)
     box = run("qhull", "FV n", stdin=points("c")).stdout.encode()
     lines = run("qhalf", "Tz s Fx", stdin=box).stdout.splitlines()
     assert "Halfspace intersection" in lines[1] and lines[-7:] == ["6", *map(str, range(6))], lines

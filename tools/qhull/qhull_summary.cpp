@@ -2,11 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "approx/report.h"
 
 namespace ndhull {
+namespace {
+
+/// The options with which Qhull looks at areas, and sums them up.
+bool looks_at_areas(const QhullCommand& command) {
+  const auto is_of_areas = [](const std::string& format) { return format == "Fa" || format == "FS"; };
+  return command.has_size || command.selection.largest || command.selection.min_area ||
+         std::ranges::any_of(command.formats, is_of_areas);
+}
+
+}  // namespace
+
 std::string summary_text(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts) {
-  QhullSummaryParts parts{.with_area = command.has_size,
+  QhullSummaryParts parts{.with_area = looks_at_areas(command),
                           .counts_attached = command.keep_coplanar || command.keep_interior,
                           .seconds = facts.hull_seconds};
   if (facts.joggle) {
