@@ -3,7 +3,6 @@
 #include "approx/drawing/drawing_axes.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,10 +37,18 @@ Eigen::MatrixXd covariance(const PointView& points, std::span<const double> cent
   return moments / count - (sum / count) * (sum / count).transpose();
 }
 
-/// Directions that span the same, at right angles.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(columns);
-  return factors.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+/// The equations of a subspace in coordinates that are scaled column by column. (Those of directions would
+/// lose what columns of very different extents have.)
+std::vector<double> scaled_equations(std::span<const double> equations, const Eigen::VectorXd& scales) {
+  std::vector<double> scaled(equations.begin(), equations.end());
+  const auto stride = static_cast<std::size_t>(scales.size()) + 1;
+  for (std::size_t at = 0; at < scaled.size(); ++at) {
+    const std::size_t column = at % stride;
+    if (column + 1 == stride) continue;
+    const double scale = scales[static_cast<Eigen::Index>(column)];
+    if (scale > 0.0) scaled[at] /= scale;
+  }
+  return scaled;
 }
 
 /// "62 %: 0.58 carat + 0.57 x - 0.1 depth", the largest parts first.
@@ -100,12 +107,16 @@ DrawingAxes principal_axes(const PointView& points, std::size_t count, std::span
   for (std::size_t k = 0; k < extents.size(); ++k) {
     scales[static_cast<Eigen::Index>(k)] = extents[k] > 0.0 ? 1.0 / extents[k] : 0.0;
   }
-  // Where points vary less than rounding of how they vary most, all directions look alike: those out of their
-  // subspace must not be among them.
-  const Eigen::MatrixXd inside =
-      orthonormal(scales.asDiagonal() * subspace_directions(points.dimension, equations));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inside.transpose() *
-                                                              covariance(points, centre, scales) * inside);
+  const Eigen::MatrixXd spread = covariance(points, centre, scales);
+  Eigen::MatrixXd inside = Eigen::MatrixXd::Identity(dimension, dimension);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spread);
+  // Where points vary less than rounding of how they vary most all directions look alike: those out of their
+  // subspace must not be among them. (Elsewhere its equations may be less exact than the covariance.)
+  constexpr double kLost = 1e-12;
+  if (solver.eigenvalues()[dimension - static_cast<Eigen::Index>(count)] < kLost * spread.trace()) {
+    inside = subspace_directions(points.dimension, scaled_equations(equations, scales));
+    solver.compute(inside.transpose() * spread * inside);
+  }
   const Eigen::VectorXd variances = solver.eigenvalues().cwiseMax(0.0);
   const double all = std::max(variances.sum(), std::numeric_limits<double>::min());
   DrawingAxes axes;

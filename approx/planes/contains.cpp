@@ -51,17 +51,44 @@ class Comparer {
         block_of[query] = first;
       }
     }
+    std::vector<std::size_t> doubtful;
     for (std::size_t query = 0; query < out.size(); ++query) {
       const double* const row = rows.data() + query * columns_;
       const double least = best[query] - 2.0 * roundoff_of(row);
-      const bool is_in_block = of_others[query] < least;
       const std::size_t end = std::min(block_of[query] + kPlaneBlock, halfspaces_.count());
-      out[query] = is_in_block ? furthest(row, block_of[query], end, least)
-                               : furthest(row, 0, halfspaces_.count(), least);
+      if (of_others[query] < least) {
+        out[query] = furthest(row, block_of[query], end, least);
+      } else {
+        out[query] = {-HUGE_VAL, 0};
+        best[query] = least;
+        doubtful.push_back(query);
+      }
     }
+    compare_in_all_blocks(rows, best, doubtful, out);
   }
 
  private:
+  /// Of these queries, which several blocks have planes for whose products are at least `least`.
+  void compare_in_all_blocks(std::span<const double> rows, std::span<const double> least,
+                             std::span<const std::size_t> queries, std::span<PlaneDistance> out) const {
+    if (queries.empty()) return;
+    std::vector<double> some, products(queries.size());
+    for (const std::size_t query : queries) {
+      const std::span<const double> row = rows.subspan(query * columns_, columns_);
+      some.insert(some.end(), row.begin(), row.end());
+    }
+    for (std::size_t first = 0; first < halfspaces_.count(); first += kPlaneBlock) {
+      const std::size_t used = std::min(kPlaneBlock, halfspaces_.count() - first);
+      max_dots(columns_, some, {unit_rows_.data() + first * columns_, used * columns_}, products);
+      for (std::size_t k = 0; k < queries.size(); ++k) {
+        if (products[k] < least[queries[k]]) continue;
+        const PlaneDistance found =
+            furthest(some.data() + k * columns_, first, first + used, least[queries[k]]);
+        if (found.distance > out[queries[k]].distance) out[queries[k]] = found;
+      }
+    }
+  }
+
   /// Bound of the error of a product of unit row and query: gamma_{d+2} times the sizes of its terms, twice,
   /// which covers the rounding of the unit rows too.
   double roundoff_of(const double* row) const {

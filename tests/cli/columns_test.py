@@ -39,14 +39,17 @@ def test_hull_extreme_largest_and_view():
 def test_names_that_are_numbers():
     # Years, or the numbers that pandas gives columns: a word above numbers, or an index without a name, tells.
     values = rbox("20 D2 t5", FOLDER / "two.npy")
-    for header, columns, names in (("mass,2019,2020", "2,3", ["2019", "2020"]), (",0,1", "2-3", ["0", "1"]),
-                                   ("mass,2019,", "mass,2019", None)):  # fmt: skip
+    for header, columns in (("mass,2019,2020", "2,3"), ("mass,2019,2020", "mass,3"), (",0,1", "2-3")):
         table = FOLDER / "years.csv"
         table.write_text("\n".join([header] + [f"{row},{a!r},{b!r}" for row, (a, b) in enumerate(values.tolist())]))
         report = report_of(table, "--columns", columns)
         assert report["input"]["points"] == 20, (header, report["input"])
-        assert names is None or report["input"].get("columns", names) == names, report["input"]
-    # Text in every row is no header's, nor is a value that is missing.
+    # Text in every row is no header's, nor is a value that is missing, or an id.
+    for first in ("a12,1.5,2.5", "x,1,3", "True,4,2", "yes,1,2.5"):
+        (FOLDER / "ids.csv").write_text(f"{first}\n1,3,5\n1,4,1\n")
+        assert report_of(FOLDER / "ids.csv", "--columns", "2,3")["input"]["points"] == 3, first
+    (FOLDER / "typo.csv").write_text("O,1,2\n1,3,5\n1,4,1\n")
+    one_error_line(run("hull", FOLDER / "typo.csv", exit_code=1), "bad-number")
     (FOLDER / "text.csv").write_text("a,1,2\nb,3,5\nc,4,1\n")
     assert report_of(FOLDER / "text.csv", "--columns", "2,3")["input"]["points"] == 3
     for first in ("NA,1,2", ",1,2", "nan,1,2"):

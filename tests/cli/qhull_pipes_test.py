@@ -34,7 +34,7 @@ def test_headers_are_read_as_qhull_reads_them():
     # A count that is not true is no point.
     for text in (b"2 4\n0 0\n1 0\n0 1\n", b"2 1000\n" + b"0 0\n1 0\n0 1\n" * 33, b"3 4\n"):
         one_error_line(run("qhull", "Fx", stdin=text, exit_code=1), "wrong-count")
-    # A table of decimals or of names is no header, nor is one in ndhull's own commands.
+    # A table of decimals has no header, nor is this one for ndhull's own commands.
     assert run("qhull", "Fx", stdin=b"0.5 1\n2 4\n3 1\n").stdout.splitlines()[0] == "3"
     assert run("hull", "-", "--format", "Fx", stdin=b"2 4\n0 0\n1 0\n0 1\n").stdout.splitlines()[0] == "4"
 

@@ -64,15 +64,18 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
   return file;
 }
 
-/// Is the text a table of 1-d halfspaces, whose first row may look like the header of a point?
+/// Is the text a table of 1-d halfspaces, whose first row looks like the header of a point? Not where a header
+/// follows a point in the plane, and all that it announces, two numbers a line.
 bool has_two_columns(const TextSource& source) {
-  std::vector<double> row;
+  std::vector<double> row, third;
+  std::size_t rows = 0;
   for (const char* place = source.begin(); (place = skip_comment_lines(source, place)) != source.end();) {
     const char* comment = nullptr;
     row.clear();
     if (read_number_line(source, place, row, &comment) != 2) return false;
+    if (++rows == 3) third = row;
   }
-  return true;
+  return third.empty() || third[0] != 3.0 || 2.0 * static_cast<double>(rows - 3) != 3.0 * third[1];
 }
 
 /// A point in front of the halfspaces: d and 1, d numbers, and more behind them. Returns the place behind the

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -200,33 +199,45 @@ bool is_header_by_quotes(const TextSource& source, const FieldLine& line, const 
   return below != source.end() && !are_all_quoted({source, source.line_end(below), line.separator}, below);
 }
 
-/// A word, and no way to say that a value is missing.
+/// A word without digits, and no way to say that a value is missing.
 bool is_name(const std::string& field) {
-  if (field.empty() || names_missing_value(field) || names_non_finite(field)) return false;
-  const auto first = static_cast<unsigned char>(field.front());
-  return std::isalpha(first) != 0 || first == '_' || first >= 0x80;
+  const auto is_part = [](unsigned char letter) {
+    return letter != '.' && !is_digit(static_cast<char>(letter));
+  };
+  return !field.empty() && !names_missing_value(field) && !names_non_finite(field) &&
+         std::ranges::all_of(field, is_part);
 }
 
-/// 0, 1, 2, .. above columns that have no names, behind the index column's empty one, as pandas writes them.
-bool are_counted(std::span<const std::string> fields) {
-  if (fields.size() < 2 || !fields[0].empty()) return false;
-  for (std::size_t k = 1; k < fields.size(); ++k)
-    if (fields[k] != std::to_string(k - 1)) return false;
+/// Two or more whole numbers that go up by one: years, or what pandas counts columns by.
+bool are_counted(std::span<const std::string> numbers) {
+  if (numbers.size() < 2) return false;
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::string& field = numbers[k];
+    std::size_t value = 0;
+    const char* const end = field.data() + field.size();
+    if (parse_count(field.data(), end, value) != end || (k > 0 && value != last + 1)) return false;
+    last = value;
+  }
   return true;
 }
 
-/// Names of which some are numbers, as years are: another one is a word above a number.
+/// Columns that are counted behind others with names, or behind one without: a point whose other values are
+/// text looks like that as well, but the rows below have numbers there.
 bool is_header_by_column(std::span<const std::string> fields, const TextSource& source,
                          const FieldLine& line) {
   const char* const below = line.end == source.end() ? line.end : skip_empty_lines(source, line.end + 1);
-  if (below == source.end()) return false;
+  if (line.separator == kBlanks || below == source.end()) return false;
   const auto length = static_cast<std::size_t>(source.line_end(below) - below);
-  const std::vector<std::string> values = split({below, length}, line.separator);
+  std::vector<std::string> values = split({below, length}, line.separator);
   if (values.size() != fields.size()) return false;
-  if (are_counted(fields)) return true;
-  for (std::size_t k = 0; k < fields.size(); ++k)
-    if (is_name(fields[k]) && is_number(values[k])) return true;
-  return false;
+  while (!values.back().empty() && values.back().back() == '\r') values.back().pop_back();
+  const auto first = std::ranges::find_if(fields, is_number);
+  const auto named = static_cast<std::size_t>(first - fields.begin());
+  if (named == 0 || !are_counted(fields.subspan(named))) return false;
+  for (std::size_t k = 0; k < named; ++k)
+    if (!is_number(values[k]) || !(is_name(fields[k]) || (fields[k].empty() && *first == "0"))) return false;
+  return true;
 }
 
 [[noreturn]] void fail_without_name(const TextSource& source, const char* line, std::size_t column,
@@ -246,7 +257,7 @@ TableLayout read_first_line(const TextSource& source, const char* line, const ch
   std::vector<std::string> fields = split(content, layout.separator);
   const FieldLine first{source, end, layout.separator};
   layout.has_header = (is_header(fields) || is_header_by_quotes(source, first, line) ||
-                       is_header_by_column(fields, source, first)) &&
+                       (!choice.is_all() && is_header_by_column(fields, source, first))) &&
                       !(choice.is_all() && is_missing_row(fields));
   if (layout.has_header) {
     layout.columns = fields.size();

@@ -15,7 +15,9 @@ namespace {
 /// taken, gets some again. `before`: the string so far.
 std::string quoted(const std::string& word, const std::string& before) {
   const std::string last = before.substr(before.find_last_of(' ') + 1);
-  if ((last != "TI" && last != "TO") || word.find(' ') == std::string::npos) return word;
+  const bool is_quoted =
+      word.size() > 1 && word.front() == word.back() && (word[0] == '\'' || word[0] == '"');
+  if ((last != "TI" && last != "TO") || is_quoted || word.find(' ') == std::string::npos) return word;
   const char* const quote = word.find('\'') == std::string::npos ? "'" : "\"";
   return quote + word + quote;
 }
