@@ -41,20 +41,12 @@ struct Spike {
 class DistanceChoice {
  public:
   DistanceChoice(const Hull& hull, std::size_t count, const WorkEnd& end, const PointView* points)
-      : hull_(hull), points_(points), count_(count), end_(end) {
-    facets_.resize(hull.facet_count());
-    for (std::uint32_t row = 0; row < hull.facet_count(); ++row) facets_[row] = FacetId{row};
-    std::sort(facets_.begin(), facets_.end(), [&hull](FacetId a, FacetId b) {
-      const double area_a = hull.area_of(a), area_b = hull.area_of(b);
-      return area_a != area_b ? area_a > area_b : a < b;
-    });
-    if (const std::size_t most = std::max<std::size_t>(kMostCandidates, count); facets_.size() > most) {
-      std::vector<FacetId> few(facets_.begin(), facets_.begin() + static_cast<std::ptrdiff_t>(most));
-      planes_ = outer_planes_about_interior(hull, few);
-      if (is_bounded()) facets_ = std::move(few);
-    }
-    planes_ = outer_planes_about_interior(hull, facets_);
-  }
+      : hull_(hull),
+        points_(points),
+        count_(count),
+        end_(end),
+        facets_(plane_candidates(hull, count)),
+        planes_(outer_planes_about_interior(hull, facets_)) {}
 
   std::vector<FacetId> choose() {
     if (facets_.size() <= count_) return sorted_facets(first(facets_.size()));
@@ -95,8 +87,6 @@ class DistanceChoice {
     }
     return {distance.value_or(HUGE_VAL), highest->height};
   }
-
-  bool is_bounded() const { return find_open_direction(planes_.normals, planes_.rank).bounded; }
 
   /// The planes a . y <= 1, spread evenly.
   RowMatrix even_planes() const {

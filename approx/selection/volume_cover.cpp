@@ -88,7 +88,7 @@ std::span<const double> values_of(const RowMatrix& rows) {
 RowMatrix choose_planes(const ExactFacets& facets, std::uint64_t count, const WorkEnd& end) {
   const Eigen::MatrixXd even = even_spread_map(facets.planes);
   const auto rank = static_cast<std::size_t>(even.cols());
-  std::vector<std::uint32_t> ids = candidates_of(facets, even, kMostCandidates);
+  std::vector<std::uint32_t> ids = candidates_of(facets, even, most_candidates(count));
   RowMatrix candidates = rows_of(facets.planes, ids) * even;
   if (ids.size() < facets.volumes.size() && !find_open_direction(values_of(candidates), rank).bounded) {
     ids = candidates_of(facets, even, facets.volumes.size());

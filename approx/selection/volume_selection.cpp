@@ -97,23 +97,11 @@ class EvenPoints {
 class VolumeChoice {
  public:
   VolumeChoice(const Hull& hull, std::size_t count, const WorkEnd& end)
-      : hull_(hull), count_(count), end_(end) {
-    Ids ids(hull.facet_count());
-    std::iota(ids.begin(), ids.end(), 0U);
-    std::sort(ids.begin(), ids.end(), [&hull](std::uint32_t a, std::uint32_t b) {
-      const double area_a = hull.area_of(FacetId{a}), area_b = hull.area_of(FacetId{b});
-      return area_a != area_b ? area_a > area_b : a < b;
-    });
-    facets_ = std::move(ids);
-    if (const std::size_t most = std::max<std::size_t>(kMostCandidates, count); facets_.size() > most) {
-      Ids few(facets_.begin(), facets_.begin() + static_cast<std::ptrdiff_t>(most));
-      std::swap(few, facets_);
-      planes_ = even_planes();
-      if (is_bounded(planes_)) return;
-      facets_ = std::move(few);
-    }
-    planes_ = even_planes();
-  }
+      : hull_(hull),
+        count_(count),
+        end_(end),
+        facets_(plane_candidates(hull, count)),
+        planes_(even_planes()) {}
 
   std::vector<FacetId> choose() {
     if (facets_.size() <= count_) return facets_of(all_candidates());
@@ -150,7 +138,7 @@ class VolumeChoice {
 
   std::vector<FacetId> facets_of(const Ids& candidates) const {
     std::vector<FacetId> facets;
-    for (const std::uint32_t id : candidates) facets.push_back(FacetId{facets_[id]});
+    for (const std::uint32_t id : candidates) facets.push_back(facets_[id]);
     std::sort(facets.begin(), facets.end());
     return facets;
   }
@@ -158,11 +146,10 @@ class VolumeChoice {
   /// The candidates as rows a with a . y <= 1, in coordinates y about the interior point in which the rows
   /// are spread evenly: ratios of volumes are the same in all coordinates.
   RowMatrix even_planes() const {
-    std::vector<FacetId> ids;
-    for (const std::uint32_t id : facets_) ids.push_back(FacetId{id});
-    const PlanesAboutOrigin planes = outer_planes_about_interior(hull_, ids);
+    const PlanesAboutOrigin planes = outer_planes_about_interior(hull_, facets_);
     const auto rank = static_cast<Index>(planes.rank);
-    RowMatrix rows = Eigen::Map<const RowMatrix>(planes.normals.data(), static_cast<Index>(ids.size()), rank);
+    RowMatrix rows =
+        Eigen::Map<const RowMatrix>(planes.normals.data(), static_cast<Index>(facets_.size()), rank);
     for (Index row = 0; row < rows.rows(); ++row) {
       rows.row(row) /= planes.heights[static_cast<std::size_t>(row)];
     }
@@ -249,8 +236,8 @@ class VolumeChoice {
   const Hull& hull_;
   std::size_t count_;
   const WorkEnd& end_;
-  Ids facets_;        // candidates: facets by area, largest first
-  RowMatrix planes_;  // one a candidate
+  std::vector<FacetId> facets_;  // candidates, largest first
+  RowMatrix planes_;             // one a candidate
 };
 
 }  // namespace

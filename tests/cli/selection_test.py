@@ -272,6 +272,7 @@ def test_more_facets_than_are_looked_at_for_a_measure():
         planes = folder / f"{measure}.npy"
         report = report_of(folder / "points.npy", "--largest", 20_500, "--select", measure, "--planes", planes)
         assert report["facets"] > 21_000 and len(numpy.load(planes)) == 20_500, (measure, report["facets"])
+    assert report_of(folder / "points.npy", "--facets", 20_500, "--objective", "volume")["facets"] == 20_500
 
 
 if __name__ == "__main__":

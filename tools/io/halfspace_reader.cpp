@@ -64,29 +64,13 @@ HalfspaceFile read_cdd_halfspaces(const TextSource& source, const std::string& e
   return file;
 }
 
-/// Is the text a table of 1-d halfspaces, whose first row looks like the header of a point? Not where a header
-/// follows a point in the plane, and all that it announces, two numbers a line.
-bool has_two_columns(const TextSource& source) {
-  std::vector<double> row, third;
-  std::size_t rows = 0;
-  for (const char* place = source.begin(); (place = skip_comment_lines(source, place)) != source.end();) {
-    const char* comment = nullptr;
-    row.clear();
-    if (read_number_line(source, place, row, &comment) != 2) return false;
-    if (++rows == 3) third = row;
-  }
-  return third.empty() || third[0] != 3.0 || 2.0 * static_cast<double>(rows - 3) != 3.0 * third[1];
-}
-
 /// A point in front of the halfspaces: d and 1, d numbers, and more behind them. Returns the place behind the
 /// point, or null when there is none.
 const char* read_interior_point(const TextSource& source, TextKind kind, std::vector<double>& point) {
   const QhullHeader header = read_qhull_header(source);
   if (header.count != std::size_t{1}) return nullptr;
-  // A row of a table may begin with these, or be these.
-  if (kind == TextKind::kByContent &&
-      ((header.data != source.end() && header.data[-1] != '\n') || has_two_columns(source)))
-    return nullptr;
+  // A row of a table may begin with these.
+  if (kind == TextKind::kByContent && header.data != source.end() && header.data[-1] != '\n') return nullptr;
   const std::size_t dimension = *header.dimension;
   const char* place = header.data;
   while (point.size() < dimension && (place = skip_comment_lines(source, place)) != source.end()) {
@@ -112,14 +96,18 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
         text.begin(), text.end(), [](char letter) { return letter != '\n'; }, ' ');
     text.append(rest, source.end());
     table = read_number_text(TextSource(source.name(), text), extension, kind, true);
-    if (point.size() + 1 != table.columns) {
+    if (kind == TextKind::kByContent && point.size() == 2 && table.columns == 2) {
+      // A table of 1-d halfspaces, whose first row looks like the header of a point.
+      table = read_number_text(source, extension, kind, true);
+      point.clear();
+    } else if (point.size() + 1 != table.columns) {
       source.fail(
           ErrorCode::kBadHeader, skip_comment_lines(source, source.begin()),
           fmt::format(
               "found a point in dimension {} before halfspaces of {} columns, expected {}; correct one",
               point.size(), table.columns, point.size() + 1));
     }
-    file.interior_point = std::move(point);
+    if (!point.empty()) file.interior_point = std::move(point);
   }
   file.dimension = table.columns - 1;
   file.count = table.rows;

@@ -12,6 +12,15 @@
 namespace ndhull {
 namespace {
 
+/// An integer that is a word of its own at `at`, which moves behind it.
+std::optional<std::size_t> take_integer(const char*& at, const char* end) {
+  std::size_t value = 0;
+  const char* const stop = parse_count(at, end, value);
+  if (stop == nullptr || (stop != end && !is_blank(*stop))) return std::nullopt;
+  at = skip_blanks(stop, end);
+  return value;
+}
+
 /// The leading integers of a line and whether other text stands behind them.
 struct IntegerLine {
   std::size_t count = 0;  // 0, 1, 2, or 3 for "more"
@@ -26,28 +35,17 @@ IntegerLine read_integer_line(const TextSource& source, const char* place) {
   const char* const end = source.line_end(place);
   const char* at = skip_blanks(place, end);
   while (at != end && *at != '#') {
-    std::size_t value = 0;
-    const char* const stop = parse_count(at, end, value);
-    if (stop == nullptr || (stop != end && !is_blank(*stop))) {
+    const std::optional<std::size_t> value = take_integer(at, end);
+    if (!value) {
       line.has_text = true;
       line.text_is_number = begins_like_number(at, end);
       break;
     }
-    if (line.count < 2) line.value[line.count] = value;
+    if (line.count < 2) line.value[line.count] = *value;
     line.count = std::min<std::size_t>(line.count + 1, 3);
-    at = skip_blanks(stop, end);
   }
   line.next = end == source.end() ? end : end + 1;
   return line;
-}
-
-/// An integer that is a word of its own at `at`, which moves behind it.
-std::optional<std::size_t> take_integer(const char*& at, const char* end) {
-  std::size_t value = 0;
-  const char* const stop = parse_count(at, end, value);
-  if (stop == nullptr || (stop != end && !is_blank(*stop))) return std::nullopt;
-  at = skip_blanks(stop, end);
-  return value;
 }
 
 /// Numbers separated by blanks behind `place`, unread.
