@@ -37,6 +37,8 @@ struct Limits {
   /// for it: growth ends in time for that as well. Not of approximate hulls, whose facets are few.
   double share_afterwards = 0.0;
   std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
+  /// [bytes] What the caller makes of each simplex after the call, which these limits are to hold as well.
+  std::uint64_t bytes_afterwards = 0;
   /// What the machine has for them: ends growth where max_memory_bytes is 0, and changes nothing before.
   std::uint64_t machine_memory_bytes = 0;
 

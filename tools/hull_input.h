@@ -37,6 +37,7 @@ class HullInput {
   /// From now on points of the hull are rows of all points, also of those that other processes hold.
   void number_as_whole(Hull& hull) const;
 
+  std::size_t dimension() const { return shards_ ? shards_->shards().dimension : file_.view().dimension; }
   /// The points of one process; of several, in the first one, those that were kept.
   PointView view() const { return kept_ ? kept_->view() : file_.view(); }
 

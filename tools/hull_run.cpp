@@ -158,6 +158,15 @@ double share_afterwards(const HullRequest& request) {
   return share + kText * static_cast<double>(request.formats.size());
 }
 
+/// [bytes] of each simplex, for Limits::bytes_afterwards: ids in order for --verify (complex_check.h), with the
+/// ridges that are looked at meanwhile; normals once more for --bounded.
+std::uint64_t bytes_afterwards(const HullRequest& request, std::size_t dimension) {
+  std::uint64_t bytes = 0;
+  if (request.verify) bytes = 5 * dimension + 5;
+  if (request.selection.bounded && request.options.accuracy.is_exact()) bytes = 8 * dimension + 16;
+  return bytes;
+}
+
 /// How large a mapped file may be to stay in memory: a small part of what is allowed.
 std::size_t kept_file_bytes(const Limits& limits) {
   return limits.max_memory_bytes == 0 ? kKeptFileBytes
@@ -246,7 +255,11 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   interrupt.arm();
   HullOptions hull_options = context.options;
   hull_options.limits = limits_left(hull_options.limits, start);
+  // The hulls of a curve are built beside this one.
+  if (!request.curve_path.empty())
+    hull_options.limits.max_memory_bytes -= hull_options.limits.max_memory_bytes / 2;
   hull_options.limits.share_afterwards = share_afterwards(request);
+  hull_options.limits.bytes_afterwards = bytes_afterwards(request, input.dimension());
   // Both look at all simplices: of an approximate hull the complex is kept then, whatever it takes.
   if (!hull_options.accuracy.is_exact())
     hull_options.wants_simplices = request.verify.has_value() || !request.formats.empty();

@@ -43,8 +43,9 @@ constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
 }  // namespace
 
 /// [bytes] of a simplex in the end, when it may be merged with others, and when it is looked at for slabs.
-std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) {
-  std::uint64_t bytes = 16 * work.rank + kFacetBytes;
+std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges,
+                                    bool covers) const {
+  std::uint64_t bytes = 16 * work.rank + kFacetBytes + limits_.bytes_afterwards;
   // Of flat data the normals are longer than the planes and do not take their place.
   if (work.rank != dimension) bytes += 8 * dimension;
   if (merges) bytes += 16 * work.rank + kMergeBytes;

@@ -55,7 +55,7 @@ class WorkLimits {
   double affordable_products(const GrowthWork& work, double part, bool is_stopped) const;
 
  private:
-  static std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers);
+  std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) const;
   std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
   /// Of some points from the one with id `first` on, taken evenly.

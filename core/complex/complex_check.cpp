@@ -138,13 +138,15 @@ class Checker {
 
   struct Ridge {
     std::uint64_t key;  ///< of its set of vertices
-    std::uint32_t row, other, slot;
+    std::uint32_t row, slot;
   };
 
-  /// Ridges are brought together by a hash of their vertex sets, a share of all hashes at a time.
+  /// Two simplices that name each other across a ridge have it in common, check_row saw: each such pair is
+  /// listed once, and no other may have the same vertices. Ridges are brought together by a hash of these, a
+  /// share of all hashes at a time.
   void check_ridges_are_unique() {
-    constexpr std::size_t kRidgesAtATime = std::size_t{1} << 20, kMostShares = 32;
-    const std::size_t ridges = result_.simplices * rank_;
+    constexpr std::size_t kRidgesAtATime = std::size_t{1} << 17, kMostShares = 32;
+    const std::size_t ridges = result_.simplices * rank_ / 2;
     const std::size_t shares = std::clamp<std::size_t>(ridges / kRidgesAtATime, 1, kMostShares);
     std::vector<ComplexCheck> parts(shares);
     for_each_block(shares, 1, [&](std::size_t share, std::size_t) {
@@ -154,7 +156,7 @@ class Checker {
       std::sort(found.begin(), found.end(), [](const Ridge& a, const Ridge& b) {
         return a.key != b.key ? a.key < b.key : a.row != b.row ? a.row < b.row : a.slot < b.slot;
       });
-      check_pairs(found, parts[share]);
+      check_listed_once(found, parts[share]);
     });
     for (const ComplexCheck& part : parts) join(result_, part);
   }
@@ -166,23 +168,19 @@ class Checker {
       std::uint64_t sum = 0;
       for (std::size_t slot = 0; slot < rank_; ++slot) sum += mix(vertices(row)[slot]);
       for (std::uint32_t slot = 0; slot < rank_; ++slot) {
+        if (neighbours(row)[slot] < row) continue;
         const std::uint64_t key = sum - mix(vertices(row)[slot]);
-        if (((key >> kHalf) * shares) >> kHalf == share)
-          found.push_back({key, row, neighbours(row)[slot], slot});
+        if (((key >> kHalf) * shares) >> kHalf == share) found.push_back({key, row, slot});
       }
     }
   }
 
-  /// Of neighbours it is known that they have the ridge in common; others are compared in full.
-  void check_pairs(const std::vector<Ridge>& ridges, ComplexCheck& part) const {
-    for (std::size_t begin = 0, end = 0; begin < ridges.size(); begin = end) {
-      const Ridge& first = ridges[begin];
-      for (end = begin; end < ridges.size() && ridges[end].key == first.key;) ++end;
-      const bool are_two = end - begin == 2;
-      if (are_two && first.other == ridges[begin + 1].row && ridges[begin + 1].other == first.row) continue;
-      if (!are_two ||
-          !have_same_ridge(first.row, place(first), ridges[begin + 1].row, place(ridges[begin + 1])))
-        report(part, "a ridge belongs to other than two simplices", first.row, first.slot);
+  /// Ridges of one key are compared in full.
+  void check_listed_once(const std::vector<Ridge>& ridges, ComplexCheck& part) const {
+    for (std::size_t i = 1; i < ridges.size(); ++i) {
+      const Ridge &ridge = ridges[i], &before = ridges[i - 1];
+      if (ridge.key == before.key && have_same_ridge(ridge.row, place(ridge), before.row, place(before)))
+        report(part, "a ridge belongs to other than two simplices", ridge.row, ridge.slot);
     }
   }
   std::size_t place(const Ridge& ridge) const { return place_of(ridge.row, vertices(ridge.row)[ridge.slot]); }
