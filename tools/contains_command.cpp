@@ -63,7 +63,8 @@ std::vector<PlaneDistance> distances_of(const PointFile& queries, const Halfspac
                                     PlaneDistance{.distance = -kInfinity, .plane = kNoPlane});
 }
 
-/// .npy: rows distance, plane, and 1 outside, 0 within the width, -1 inside; text: one line a query.
+/// .npy: rows distance, plane, and 1 outside, 0 within the width, -1 inside; text: one line a query, below
+/// names in a table.
 void write_distances(const std::string& path, const std::vector<PlaneDistance>& distances, double width) {
   OutputFile file(path);
   if (extension_of(path) == "npy") {
@@ -74,8 +75,10 @@ void write_distances(const std::string& path, const std::vector<PlaneDistance>& 
       file.write({reinterpret_cast<const char*>(row.data()), sizeof(row)});
     }
   } else {
+    const char table = table_separator(extension_of(path)), between = table != '\0' ? table : ' ';
+    if (table != '\0') file.print("distance{0}plane{0}answer\n", between);
     for (const PlaneDistance& query : distances) {
-      file.print("{} {} {}\n", query.distance, plane_of(query),
+      file.print("{1}{0}{2}{0}{3}\n", between, query.distance, plane_of(query),
                  to_string(membership_of(query.distance, width)));
     }
   }
@@ -139,8 +142,9 @@ void add_contains_command(CLI::App& app) {
       command
           ->add_option(
               "-o,--output", arguments->output,
-              "where to; default standard output: a line \"distance plane answer\" for each query; .npy: "
-              "rows distance, plane, answer (1 outside, 0 within the width, -1 inside)")
+              "where to; default standard output: a line \"distance plane answer\" for each query, in "
+              ".csv and .tsv below these names; .npy: rows distance, plane, answer (1 outside, 0 within the "
+              "width, -1 inside)")
           ->type_name("FILE")
           ->check(path_name());
   command

@@ -66,7 +66,8 @@ std::vector<std::pair<std::string, OptionValue>> program_options(const HullReque
     verify = std::string(*request.verify == VerifyMode::kExact ? "exact" : "floating");
   }
   if (!request.formats.empty()) formats = fmt::format("{}", fmt::join(request.formats, " "));
-  return {{"columns", text_or_null(request.columns.list())},
+  return {{"points_sharded", text_or_null(request.shards_pattern)},
+          {"columns", text_or_null(request.columns.list())},
           {"largest", value_or_null(selection.largest)},
           {"select", std::string(to_string(selection.measure))},
           {"min_area", value_or_null(selection.min_area)},

@@ -30,6 +30,14 @@ def test_lines():
     assert 100 < sum(distances > 0) < 1900
 
 
+def test_tables_have_names():
+    lines = run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy").stdout.splitlines()
+    for ending, separator in ((".csv", ","), (".tsv", "\t")):
+        run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "-o", FOLDER / f"answers{ending}")
+        table = (FOLDER / f"answers{ending}").read_text().splitlines()
+        assert table == [separator.join(line.split(" ")) for line in ["distance plane answer", *lines]]
+
+
 def test_npy_and_width():
     run("contains", FOLDER / "planes.npy", FOLDER / "queries.npy", "--width", "0.05", "-o", FOLDER / "answers.npy")
     answers = numpy.load(FOLDER / "answers.npy")

@@ -20,7 +20,7 @@ KEYS = """ndhull input status options length_unit vertices facets simplicial_fac
     volume outer_volume roundoff max_outer_offset min_inner_offset max_facet_width width_ratio max_outside_gauge
     interior_point points_outside seconds peak_memory_bytes reference statistics""".split()
 OPTIONS = """width facets objective effort outside_width centrum_radius max_cosine width_cap
-    max_facets max_seconds max_memory unit_cube triangulate threads seed columns largest
+    max_facets max_seconds max_memory unit_cube triangulate threads seed points_sharded columns largest
     select min_area most_merged bounded outer_volume planes plane_kind equations vertices report
     facet_list curve format verify progress quiet""".split()
 FACET_KEYS = """normal offset centred_offset outer_offset inner_offset area vertices neighbors simplices""".split()

@@ -51,6 +51,19 @@ TEST(ColumnChoiceExample, FilesThatAreNumbersThroughout) {
                 "points.ext");
   const std::string array = npy_bytes<float>("<f4", {2, 3}, {1, 2, 3, 4, 5, 6}, true);
   expect_chosen(array, "3,1", {5, 1, 6, 2}, {}, "points.npy");
+  expect_chosen(npy_bytes<std::int16_t>("<i2", {2, 3}, {1, 2, 3, 4, 5, 6}), "2", {2, 5}, {}, "points.npy");
+}
+
+TEST(ColumnChoiceExample, OtherColumnsOfAnArrayMayHoldAnyNumber) {
+  const double nan = std::nan("");
+  const std::string array = npy_bytes<double>("<f8", {2, 3}, {1, nan, 3, 4, 5, 6});
+  expect_chosen(array, "3,1", {3, 1, 6, 4}, {}, "points.npy");
+  expect_error(ErrorCode::kNotFinite, "element [0, 1]: found nan",
+               [&] { parse(array, "points.npy", ColumnChoice("3,2")); });
+  const std::string turned = npy_bytes<double>("<f8", {2, 3}, {1, 4, 2, 5, 3, nan}, true);
+  expect_chosen(turned, "2-2", {2, 5}, {}, "points.npy");
+  expect_error(ErrorCode::kNotFinite, "element [1, 2]: found nan",
+               [&] { parse(turned, "points.npy", ColumnChoice("3,2")); });
 }
 
 TEST(ColumnChoiceExample, NamesThatAreNumbers) {

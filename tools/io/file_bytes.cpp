@@ -130,4 +130,9 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+char table_separator(const std::string& extension) {
+  if (extension == "csv") return ',';
+  return extension == "tsv" ? '\t' : '\0';
+}
+
 }  // namespace ndhull

@@ -58,4 +58,7 @@ std::string display_name(const std::string& path);
 /// The extension of `path` in lower case, without the dot: "npy" for "a/b.NPY", "" when there is none.
 std::string extension_of(const std::string& path);
 
+/// What stands between the fields of a table whose name ends so: csv, tsv; '\0' for any other extension.
+char table_separator(const std::string& extension);
+
 }  // namespace ndhull

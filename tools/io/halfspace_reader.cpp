@@ -122,7 +122,7 @@ HalfspaceFile read_npy_halfspaces(FileBytes bytes, const std::string& name) {
     none.dimension = header.shape[1] - 1;
     return none;
   }
-  const PointFile points = read_npy(std::move(bytes), name, kKeptFileBytes);
+  const PointFile points = read_npy(std::move(bytes), name, {}, kKeptFileBytes);
   const PointView view = points.view();
   HalfspaceFile file;
   file.dimension = view.dimension - 1;

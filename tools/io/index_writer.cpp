@@ -18,7 +18,7 @@ void write_indices(const std::string& path, std::span<const PointId> indices) {
     }
   } else {
     // Qhull's form begins with their number, a table does not.
-    if (extension_of(path) != "csv" && extension_of(path) != "tsv") file.print("{}\n", indices.size());
+    if (table_separator(extension_of(path)) == '\0') file.print("{}\n", indices.size());
     for (const PointId point : indices) file.print("{}\n", point.value);
   }
   file.commit();

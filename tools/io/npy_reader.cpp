@@ -62,20 +62,29 @@ std::size_t find_non_finite(const char* data, std::size_t count, std::size_t siz
   return count;
 }
 
-/// "row r, column c" of element `index`, counted from 0.
-std::string element_name(const NpyHeader& header, std::size_t index) {
-  const std::size_t rows = header.shape[0];
-  const std::size_t columns = header.shape[1];
-  return header.fortran_order ? fmt::format("[{}, {}]", index % rows, index / rows)
-                              : fmt::format("[{}, {}]", index / columns, index % columns);
-}
+/// The numbers of a file, or of its chosen columns, and where they stand there.
+struct Numbers {
+  std::string name;  ///< of the file
+  std::string type;  ///< NumPy's spelling
+  const char* data;
+  std::size_t rows, columns;
+  bool fortran_order;
+  std::vector<std::size_t> chosen;  ///< the columns' places in the file; empty: as they are
 
-[[noreturn]] void fail_not_finite(const std::string& name, const NpyHeader& header, std::size_t index,
-                                  double value) {
+  std::size_t count() const { return rows * columns; }
+  /// "[row, column]" of element `index`, counted from 0.
+  std::string place_of(std::size_t index) const {
+    const std::size_t row = fortran_order ? index % rows : index / columns,
+                      column = fortran_order ? index / rows : index % columns;
+    return fmt::format("[{}, {}]", row, chosen.empty() ? column : chosen[column]);
+  }
+};
+
+[[noreturn]] void fail_not_finite(const Numbers& numbers, std::size_t index, double value) {
   throw Error(
       ErrorCode::kNotFinite,
       fmt::format("{}, element {}: found {}, expected a finite number; remove the row or replace the value",
-                  name, element_name(header, index), value));
+                  numbers.name, numbers.place_of(index), value));
 }
 
 /// IEEE binary16 to double, exactly.
@@ -94,11 +103,10 @@ double half_to_double(std::uint16_t bits) {
 }
 
 template <class Integer>
-void convert_integers(const char* data, const std::string& name, const NpyHeader& header,
-                      std::vector<double>& values) {
+void convert_integers(const Numbers& numbers, std::vector<double>& values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     Integer element;
-    std::memcpy(&element, data + k * sizeof(Integer), sizeof(Integer));
+    std::memcpy(&element, numbers.data + k * sizeof(Integer), sizeof(Integer));
     values[k] = static_cast<double>(element);
     if constexpr (sizeof(Integer) == 8) {
       // 2^63 and 2^64 are what the largest integers round to; converting them back would overflow.
@@ -107,19 +115,18 @@ void convert_integers(const char* data, const std::string& name, const NpyHeader
         throw Error(ErrorCode::kBadNumber,
                     fmt::format("{}, element {}: found {}, expected an integer that a double holds exactly; "
                                 "scale or shift the data",
-                                name, element_name(header, k), element));
+                                numbers.name, numbers.place_of(k), element));
       }
     }
   }
 }
 
-void convert_halves(const char* data, const std::string& name, const NpyHeader& header,
-                    std::vector<double>& values) {
+void convert_halves(const Numbers& numbers, std::vector<double>& values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     std::uint16_t element = 0;
-    std::memcpy(&element, data + k * sizeof element, sizeof element);
+    std::memcpy(&element, numbers.data + k * sizeof element, sizeof element);
     values[k] = half_to_double(element);
-    if (!std::isfinite(values[k])) fail_not_finite(name, header, k, values[k]);
+    if (!std::isfinite(values[k])) fail_not_finite(numbers, k, values[k]);
   }
 }
 
@@ -132,22 +139,21 @@ std::size_t element_size(const std::string& type) {
   return 0;
 }
 
-void convert(const char* data, const std::string& name, const NpyHeader& header,
-             std::vector<double>& values) {
-  const std::string kind = header.type.substr(1);
-  if (kind == "f2") return convert_halves(data, name, header, values);
-  if (kind == "i1") return convert_integers<std::int8_t>(data, name, header, values);
-  if (kind == "i2") return convert_integers<std::int16_t>(data, name, header, values);
-  if (kind == "i4") return convert_integers<std::int32_t>(data, name, header, values);
-  if (kind == "i8") return convert_integers<std::int64_t>(data, name, header, values);
-  if (kind == "u1") return convert_integers<std::uint8_t>(data, name, header, values);
-  if (kind == "u2") return convert_integers<std::uint16_t>(data, name, header, values);
-  if (kind == "u4") return convert_integers<std::uint32_t>(data, name, header, values);
-  convert_integers<std::uint64_t>(data, name, header, values);
+void convert(const Numbers& numbers, std::vector<double>& values) {
+  const std::string kind = numbers.type.substr(1);
+  if (kind == "f2") return convert_halves(numbers, values);
+  if (kind == "i1") return convert_integers<std::int8_t>(numbers, values);
+  if (kind == "i2") return convert_integers<std::int16_t>(numbers, values);
+  if (kind == "i4") return convert_integers<std::int32_t>(numbers, values);
+  if (kind == "i8") return convert_integers<std::int64_t>(numbers, values);
+  if (kind == "u1") return convert_integers<std::uint8_t>(numbers, values);
+  if (kind == "u2") return convert_integers<std::uint16_t>(numbers, values);
+  if (kind == "u4") return convert_integers<std::uint32_t>(numbers, values);
+  convert_integers<std::uint64_t>(numbers, values);
 }
 
-/// Number of elements; checks axes, type and size of the file.
-std::size_t check_header(const NpyHeader& header, std::size_t file_size, const std::string& name) {
+/// Checks axes, type and size of the file.
+void check_header(const NpyHeader& header, std::size_t file_size, const std::string& name) {
   if (header.shape.size() != 2) {
     throw Error(ErrorCode::kBadHeader,
                 fmt::format("{}: found an array with {} axes, expected 2 (points, coordinates); save "
@@ -193,63 +199,85 @@ std::size_t check_header(const NpyHeader& header, std::size_t file_size, const s
             "file",
             name, found, bytes, header.shape[0], header.shape[1], size));
   }
-  return count;
+}
+
+/// The chosen columns alone, row by row; `numbers` are these from then on.
+FileBytes copy_chosen(Numbers& numbers, std::size_t size) {
+  FileBytes copy = FileBytes::of_size(numbers.rows * numbers.chosen.size() * size);
+  char* to = copy.writable();
+  for (std::size_t row = 0; row < numbers.rows; ++row) {
+    for (const std::size_t column : numbers.chosen) {
+      const std::size_t index =
+          numbers.fortran_order ? column * numbers.rows + row : row * numbers.columns + column;
+      std::memcpy(to, numbers.data + index * size, size);
+      to += size;
+    }
+  }
+  numbers.data = copy.view().data();
+  numbers.columns = numbers.chosen.size();
+  numbers.fortran_order = false;
+  return copy;
 }
 
 }  // namespace
 
-PointFile read_npy(FileBytes bytes, const std::string& name, std::size_t kept_bytes) {
+PointFile read_npy(FileBytes bytes, const std::string& name, const ColumnChoice& columns,
+                   std::size_t kept_bytes) {
   const NpyHeader header = read_npy_header(bytes.view(), name);
-  const std::size_t count = check_header(header, bytes.view().size(), name);
-  const char* const data = bytes.view().data() + header.data_offset;
+  check_header(header, bytes.view().size(), name);
+  Numbers numbers{name,
+                  header.type,
+                  bytes.view().data() + header.data_offset,
+                  header.shape[0],
+                  header.shape[1],
+                  header.fortran_order,
+                  {}};
+  const std::size_t size = element_size(header.type);
+  if (!columns.is_all()) {
+    numbers.chosen = columns.resolve({}, numbers.columns, name);
+    bytes = copy_chosen(numbers, size);
+  }
 
   PointView view;
-  view.rows = header.shape[0];
-  view.dimension = header.shape[1];
-  view.row_stride = header.fortran_order ? 1 : view.dimension;
-  view.column_stride = header.fortran_order ? view.rows : 1;
+  view.rows = numbers.rows;
+  view.dimension = numbers.columns;
+  view.row_stride = numbers.fortran_order ? 1 : view.dimension;
+  view.column_stride = numbers.fortran_order ? view.rows : 1;
 
+  const std::size_t count = numbers.count();
   const bool is_float = header.type.ends_with("f4");
   const bool is_double = header.type.ends_with("f8");
   if (!is_float && !is_double) {
     std::vector<double> values(count);
-    convert(data, name, header, values);
+    convert(numbers, values);
     view.data = values.data();
     return {name, std::move(values), view};
   }
+  const auto value_at = [&](std::size_t index) {
+    float single = 0.0F;
+    double value = 0.0;
+    std::memcpy(is_float ? static_cast<void*>(&single) : &value, numbers.data + index * size, size);
+    return is_float ? static_cast<double>(single) : value;
+  };
 
   const bool gives_back = bytes.is_mapping() && bytes.view().size() > kept_bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 22;  // elements: a file need not fit into memory
   std::size_t bad = 0;
   for (std::size_t chunk = 0; chunk < count && bad == chunk; chunk += kChunk) {
-    const std::size_t used = std::min(kChunk, count - chunk), size = is_float ? 4 : 8;
-    bad = chunk + find_non_finite(data + chunk * size, used, size);
+    const std::size_t used = std::min(kChunk, count - chunk);
+    bad = chunk + find_non_finite(numbers.data + chunk * size, used, size);
     if (gives_back) bytes.give_back(header.data_offset + (chunk + used) * size);
   }
-  if (bad != count) {
-    float single = 0.0F;
-    double value = 0.0;
-    std::memcpy(&single, data + bad * (is_float ? 4 : 8), sizeof single);
-    if (is_double) std::memcpy(&value, data + bad * 8, sizeof value);
-    fail_not_finite(name, header, bad, is_float ? static_cast<double>(single) : value);
-  }
+  if (bad != count) fail_not_finite(numbers, bad, value_at(bad));
   // NumPy aligns to 64 bytes (16 before 1.14), other writers need not.
-  if (reinterpret_cast<std::uintptr_t>(data) % (is_float ? alignof(float) : alignof(double)) == 0) {
+  if (reinterpret_cast<std::uintptr_t>(numbers.data) % size == 0) {
     view.type = is_float ? ScalarType::kFloat32 : ScalarType::kFloat64;
-    view.data = data;
+    view.data = numbers.data;
     view.is_file_mapping = gives_back;
     return {name, std::move(bytes), view};
   }
   std::vector<double> values(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    float single = 0.0F;
-    if (is_float) {
-      std::memcpy(&single, data + k * sizeof single, sizeof single);
-      values[k] = static_cast<double>(single);
-    } else {
-      std::memcpy(&values[k], data + k * sizeof(double), sizeof(double));
-    }
-  }
+  for (std::size_t k = 0; k < count; ++k) values[k] = value_at(k);
   view.data = values.data();
   return {name, std::move(values), view};
 }

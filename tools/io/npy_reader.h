@@ -18,6 +18,8 @@ namespace ndhull {
 ///           kTruncated, kWrongCount         fewer or more bytes than the shape says
 ///           kNotFinite, kBadNumber          with row and column counted from 0, as NumPy does
 /// `kept_bytes`: as read_points has it.
-PointFile read_npy(FileBytes bytes, const std::string& name, std::size_t kept_bytes);
+/// `columns`: which are coordinates, copied; others may hold any number.
+PointFile read_npy(FileBytes bytes, const std::string& name, const ColumnChoice& columns,
+                   std::size_t kept_bytes);
 
 }  // namespace ndhull

@@ -68,8 +68,8 @@ void write_planes(const std::string& path, std::size_t count, std::size_t dimens
     write_ine(file, count, dimension, planes);
   } else if (extension == "npy") {
     write_npy(file, count, dimension, planes);
-  } else if (extension == "csv" || extension == "tsv") {
-    write_table(file, count, dimension, extension == "csv" ? ',' : '\t', planes);
+  } else if (const char separator = table_separator(extension); separator != '\0') {
+    write_table(file, count, dimension, separator, planes);
   } else {
     write_qhull_text(file, count, dimension, planes);
   }

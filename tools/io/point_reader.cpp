@@ -53,11 +53,9 @@ NumberTable read_cdd_points(const TextSource& source, const std::string& extensi
   return std::move(table);
 }
 
-bool is_table_name(const std::string& extension) { return extension == "csv" || extension == "tsv"; }
-
 /// Does this text, neither cdd's nor binary, begin with Qhull's dimension and count?
 bool is_qhull_text(const TextSource& source, const std::string& extension, TextKind kind) {
-  if (is_table_name(extension)) return false;
+  if (table_separator(extension) != '\0') return false;
   if (kind == TextKind::kQhull && read_qhull_header(source).dimension) return true;
   return looks_like_qhull_text(source);
 }
@@ -142,7 +140,7 @@ PointFile read_points(const std::string& path, const ColumnChoice& columns, std:
     return parse_points(std::move(bytes), path, columns, kept_bytes);
   } catch (const Error& error) {
     const bool may_be_names = error.code() == ErrorCode::kBadNumber || error.code() == ErrorCode::kBadHeader;
-    if (!may_be_names || !columns.is_all() || !is_table_name(extension_of(path))) throw;
+    if (!may_be_names || !columns.is_all() || table_separator(extension_of(path)) == '\0') throw;
     throw Error(error.code(),
                 fmt::format("{}; or say with --columns which columns are coordinates", error.what()));
   }
@@ -161,7 +159,7 @@ PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnCho
   const std::string name = display_name(path);
   const std::string extension = extension_of(path);
   if (extension == "npy" || looks_like_npy(bytes.view()))
-    return choose(read_npy(std::move(bytes), name, kept_bytes), columns);
+    return read_npy(std::move(bytes), name, columns, kept_bytes);
   const TextSource source = text_source_of(bytes, name);
   source.require_content();
   if (extension == "ext" || extension == "ine" || looks_like_cdd(source))

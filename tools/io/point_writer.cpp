@@ -11,8 +11,8 @@ PointWriter::PointWriter(const std::string& path, const PointFileHead& head) : f
     is_npy_ = true;
     const bool is_float = head.scalar == ScalarType::kFloat32;
     file_.write(make_npy_header(is_float ? "<f4" : "<f8", {head.rows, head.dimension}));
-  } else if (extension == "csv" || extension == "tsv") {
-    separator_ = extension == "csv" ? ',' : '\t';
+  } else if (const char separator = table_separator(extension); separator != '\0') {
+    separator_ = separator;
   } else if (extension == "ext") {
     is_ext_ = true;
     file_.print("V-representation\nbegin\n{} {} real\n", head.rows, head.dimension + 1);

@@ -92,7 +92,7 @@ void write_generated(const std::string& path, const GenerateOptions& options) {
 
 void write_rbox(const std::string& path, const std::string& arguments) {
   const std::string extension = extension_of(path);
-  if (extension == "npy" || extension == "csv" || extension == "tsv" || extension == "ext") {
+  if (extension == "npy" || extension == "ext" || table_separator(extension) != '\0') {
     const PointSet points = rbox(arguments);
     PointWriter writer(path, {.rows = points.rows(),
                               .dimension = points.dimension,
