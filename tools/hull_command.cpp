@@ -18,7 +18,6 @@ struct HullArguments {
   HullRequest request;
   HullOptionSet hull;
   std::string plane_kind, format, verify;
-  bool has_format = false;
 };
 
 void add_output_options(CLI::App& command, HullArguments& arguments) {
@@ -45,7 +44,7 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
       "little");
   command
       .add_option("--format", arguments.format,
-                  "print Qhull's text formats, any of n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s")
+                  "print Qhull's text formats, any of " + hull_formats().joined())
       ->type_name("LIST");
   command
       .add_option("--verify", arguments.verify,
@@ -71,10 +70,7 @@ HullRequest complete_request(const CLI::App& command, const HullArguments& argum
   request.options = arguments.hull.complete();
   check_selection(request.selection);
   request.plane_kind = plane_kind_of(arguments.plane_kind);
-  request.formats = split_qhull_formats(arguments.format);
-  if (command.count("--format") > 0 && request.formats.empty()) {
-    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fs n\"");
-  }
+  if (command.count("--format") > 0) request.formats = split_qhull_formats(arguments.format);
   if (!arguments.verify.empty()) {
     request.verify = arguments.verify == "exact" ? VerifyMode::kExact : VerifyMode::kFloating;
   }

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
-#include <sstream>
 
 #include "core/error.h"
 #include "tools/command_line/byte_count.h"
 #include "tools/command_line/command_options.h"
 #include "tools/intersect_run.h"
+#include "tools/io/intersection_writer.h"
 #include "tools/io/text_source.h"
 
 namespace ndhull {
@@ -61,8 +60,7 @@ void add_options(CLI::App& command, IntersectArguments& arguments) {
   command.add_flag("--vertex-list", request.vertex_list, "put every vertex into the report")->needs(report);
   command
       .add_option("--format", arguments.format,
-                  "print as qhalf does, any of Fp (vertices) Fv (their halfspaces) Fn (their neighbours) Fx "
-                  "(halfspaces that are not redundant) FN (their vertices) i (Fv without counts)")
+                  "print as qhalf does, any of " + describe_intersection_formats())
       ->type_name("LIST");
   command.add_option("--max-facets", options.limits.max_facets, "limit: vertices, coincident ones apart")
       ->type_name("N")
@@ -97,13 +95,8 @@ IntersectRequest complete_request(const CLI::App& command, const IntersectArgume
   if (!arguments.max_memory.empty()) {
     request.options.limits.max_memory_bytes = parse_byte_count(arguments.max_memory, "--max-memory");
   }
-  std::string list = arguments.format;
-  std::replace(list.begin(), list.end(), ',', ' ');
-  std::istringstream names(list);
-  for (std::string name; names >> name;) request.formats.push_back(name);
-  if (command.count("--format") > 0 && request.formats.empty()) {
-    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fp Fv\"");
-  }
+  if (command.count("--format") > 0)
+    request.formats = split_formats(arguments.format, intersection_formats());
   return request;
 }
 

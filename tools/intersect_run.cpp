@@ -96,7 +96,6 @@ int run_intersect(const IntersectRequest& request) {
   const Clock::time_point start = Clock::now();
   const std::vector<NamedOutput> outputs = outputs_of(request);
   check_outputs_differ(outputs);
-  check_intersection_formats(request.formats);
   Interrupt interrupt;
   ProgressLine progress(request.progress, request.quiet);
   progress.show_phase("read");

@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
 #include "tools/command_line/command_options.h"
 #include "tools/largest_formats.h"
 #include "tools/largest_run.h"
@@ -15,7 +14,6 @@ namespace {
 struct LargestArguments {
   LargestRequest request;
   std::string method, plane_kind, format;
-  bool has_format = false;
 };
 
 void add_search_options(CLI::App& command, LargestArguments& arguments) {
@@ -72,24 +70,21 @@ void add_output_options(CLI::App& command, LargestArguments& arguments) {
   command
       .add_option(
           "--format", arguments.format,
-          "print Qhull's text formats of the facets, the largest first: any of n Fo Fi FV Fx Fv Fa FC p s")
-      ->type_name("LIST")
-      ->each([&arguments](const std::string&) { arguments.has_format = true; });
+          "print Qhull's text formats of the facets, the largest first: any of " + largest_formats().joined())
+      ->type_name("LIST");
   command.add_flag("--verify", request.verify,
                    "check, exactly, that no point is above an outer plane before anything is written");
   command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
   command.add_flag("--quiet", request.quiet, "no progress, no summary");
 }
 
-LargestRequest complete_request(const LargestArguments& arguments) {
+LargestRequest complete_request(const CLI::App& command, const LargestArguments& arguments) {
   LargestRequest request = arguments.request;
   if (arguments.method == "hull") request.options.method = LargestMethod::kHull;
   if (arguments.method == "rays") request.options.method = LargestMethod::kRays;
   if (arguments.plane_kind == "mean") request.plane_kind = PlaneKind::kMean;
   if (arguments.plane_kind == "inner") request.plane_kind = PlaneKind::kInner;
-  request.formats = split_largest_formats(arguments.format);
-  if (arguments.has_format && request.formats.empty())
-    throw Error(ErrorCode::kUsage, "--format: found no format, expected some; write them like \"Fa n\"");
+  if (command.count("--format") > 0) request.formats = split_formats(arguments.format, largest_formats());
   return request;
 }
 
@@ -115,7 +110,8 @@ void add_largest_command(CLI::App& app, int& exit_code) {
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "
       "written.\n" +
       example("ndhull largest points.npy -n 100 --planes outer.npy --report report.json"));
-  command->callback([arguments, &exit_code] { exit_code = run_largest(complete_request(*arguments)); });
+  command->callback(
+      [arguments, command, &exit_code] { exit_code = run_largest(complete_request(*command, *arguments)); });
 }
 
 }  // namespace ndhull

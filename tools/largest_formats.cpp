@@ -1,9 +1,6 @@
 #include "tools/largest_formats.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -74,17 +71,10 @@ void write_format(OutputFile& file, std::string_view format, const LargestPrint&
 
 }  // namespace
 
-std::vector<std::string> split_largest_formats(std::string_view list) {
-  constexpr std::array<std::string_view, 10> kKnown{"n", "Fo", "Fi", "FV", "Fx", "Fv", "Fa", "FC", "p", "s"};
-  std::vector<std::string> formats = split_qhull_formats(list);
-  for (const std::string& name : formats) {
-    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
-    throw Error(ErrorCode::kUsage,
-                fmt::format("--format: found \"{}\", which is about the whole hull, expected some of {}; use "
-                            "ndhull hull for it",
-                            name, fmt::join(kKnown, " ")));
-  }
-  return formats;
+FormatList largest_formats() {
+  return {.names = {"n", "Fo", "Fi", "FV", "Fx", "Fv", "Fa", "FC", "p", "s"},
+          .example = "Fa n",
+          .of_whole_hull = hull_formats().names};
 }
 
 std::vector<PointId> vertices_of(const LargestFacets& found) {

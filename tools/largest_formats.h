@@ -3,20 +3,19 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "approx/planes/written_planes.h"
 #include "approx/rays/largest_facets.h"
 #include "core/points.h"
+#include "tools/io/format_list.h"
 #include "tools/io/output_file.h"
 
 namespace ndhull {
 
-/// Splits the list of --format at commas and blanks.
-/// Throws Error kUsage for a format that is not one of n Fo Fi FV Fx Fv Fa FC p s: the others are about all
-/// facets of the hull, which is not built, or about neighbours among them.
-std::vector<std::string> split_largest_formats(std::string_view list);
+/// What `ndhull largest --format` has: n Fo Fi FV Fx Fv Fa FC p s. The others are about all facets of the
+/// hull, which is not built, or about neighbours among them.
+FormatList largest_formats();
 
 /// Rows normal, offset of one kind of planes of all facets; `largest` are the largest coordinates of the
 /// points.

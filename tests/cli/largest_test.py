@@ -112,6 +112,9 @@ def test_formats_are_those_of_the_selection_of_hull():
     assert text.startswith("3\n") and text.splitlines()[4:6] == ["5", "3"] and "areas " in text, text
     for form in ("Fn", "i", "FS", "zz", ""):
         one_error_line(run("largest", path, "--format", form, exit_code=1), "usage")
+    for form in ("Zz", "Fn"):  # no command has the first, ndhull hull has the other
+        done = run("largest", path, "--format", form, exit_code=1)
+        assert f'"{form}"' in done.stderr and "expected some of n Fo Fi FV Fx Fv Fa FC p s; " in done.stderr, done.stderr
     one_error_line(run("largest", path, "--format", "n", "--report", "-", exit_code=1), "usage")
 
 

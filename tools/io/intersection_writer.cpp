@@ -128,28 +128,33 @@ IdRows ordered(const HalfspaceIntersection& intersection, const Order& order) {
 }
 
 struct RegionFormat {
-  std::string_view name;
+  std::string_view name, meaning;
   RegionWriter write;
 };
 
+// In the order of help, where a meaning speaks of what stands before it.
 constexpr RegionFormat kRegionFormats[] = {
-    {"Fp", write_vertices},
-    {"Fv", [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, true); }},
-    {"i", [](OutputFile& file,
-             const auto& region) { write_rows(file, ordered(region, oriented_halfspaces), false); }},
-    {"Fn", [](OutputFile& file,
-              const auto& region) { write_rows(file, ordered(region, opposite_neighbours), true); }},
-    {"Fx", write_non_redundant},
-    {"FN",
+    {"Fp", "vertices", write_vertices},
+    {"Fv", "their halfspaces",
+     [](OutputFile& file, const auto& region) { write_rows(file, region.halfspaces_of, true); }},
+    {"Fn", "their neighbours",
+     [](OutputFile& file, const auto& region) {
+       write_rows(file, ordered(region, opposite_neighbours), true);
+     }},
+    {"Fx", "halfspaces that are not redundant", write_non_redundant},
+    {"FN", "their vertices",
      [](OutputFile& file, const auto& region) { write_rows(file, vertices_of_halfspaces(region), true); }},
+    {"i", "Fv without counts",
+     [](OutputFile& file, const auto& region) {
+       write_rows(file, ordered(region, oriented_halfspaces), false);
+     }},
 };
 
 const RegionFormat& find_format(const std::string& name) {
   for (const RegionFormat& format : kRegionFormats) {
     if (format.name == name) return format;
   }
-  throw Error(ErrorCode::kUsage,
-              fmt::format("format: found \"{}\", expected some of Fp Fv Fn Fx FN i; correct the list", name));
+  intersection_formats().refuse(name);
 }
 
 std::string status_of(const HalfspaceIntersection& intersection) {
@@ -195,13 +200,22 @@ Json vertices_of(const HalfspaceIntersection& intersection) {
 
 }  // namespace
 
-void check_intersection_formats(const std::vector<std::string>& formats) {
-  for (const std::string& name : formats) find_format(name);
+FormatList intersection_formats() {
+  FormatList list{.names = {}, .example = "Fp Fv"};
+  for (const RegionFormat& format : kRegionFormats) list.names.push_back(format.name);
+  return list;
+}
+
+std::string describe_intersection_formats() {
+  std::string text;
+  for (const RegionFormat& format : kRegionFormats)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : " ", format.name, format.meaning);
+  return text;
 }
 
 void write_intersection_formats(OutputFile& file, const std::vector<std::string>& formats,
                                 const HalfspaceIntersection& intersection) {
-  check_intersection_formats(formats);
+  for (const std::string& name : formats) find_format(name);
   for (const std::string& name : formats) find_format(name).write(file, intersection);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "approx/polytope/halfspace_intersection.h"
+#include "tools/io/format_list.h"
 #include "tools/io/output_file.h"
 
 namespace ndhull {
@@ -20,8 +21,11 @@ namespace ndhull {
 void write_intersection_formats(OutputFile& file, const std::vector<std::string>& formats,
                                 const HalfspaceIntersection& intersection);
 
-/// Throws Error kUsage for a name that write_intersection_formats does not know.
-void check_intersection_formats(const std::vector<std::string>& formats);
+/// The formats that there are: Fp Fv Fn Fx FN i.
+FormatList intersection_formats();
+
+/// They and what they are, for help: "Fp (vertices) Fv (their halfspaces) ..".
+std::string describe_intersection_formats();
 
 /// A few lines for people: what it is, what proves it, how large it is.
 std::string intersection_summary(const HalfspaceIntersection& intersection, const std::string& path);

@@ -6,8 +6,6 @@
 #include <array>
 #include <numeric>
 
-#include "core/error.h"
-
 namespace ndhull {
 namespace {
 
@@ -45,14 +43,11 @@ constexpr std::array<Format, 23> kFormats{{
     {"FQ", [](OutputFile& file, const QhullPrint& print) { file.print("{}\n", print.invocation); }, false},
 }};
 
-const Format& find_format(std::string_view name, bool must_be_of_hull) {
+const Format& find_format(std::string_view name) {
   for (const Format& format : kFormats) {
-    if (format.name == name && (format.is_of_hull || !must_be_of_hull)) return format;
+    if (format.name == name) return format;
   }
-  throw Error(ErrorCode::kUsage,
-              fmt::format("format: found \"{}\", expected some of n Fo Fi FV Fx Fv Fn FN i o p Fa "
-                          "FA FS Fs FC s; correct the list",
-                          name));
+  hull_formats().refuse(name);
 }
 
 std::vector<PointId> vertices_of(const Hull& hull, std::span<const FacetId> facets) {
@@ -100,19 +95,20 @@ QhullPrint::QhullPrint(const Hull& printed_hull, const PointView& printed_points
   }
 }
 
-std::vector<std::string> split_qhull_formats(std::string_view list) {
-  std::vector<std::string> formats;
-  while (!list.empty()) {
-    const std::size_t length = list.find_first_of(", ");
-    const std::string_view name = list.substr(0, length);
-    if (!name.empty()) formats.emplace_back(find_format(name, true).name);
-    list.remove_prefix(length == std::string_view::npos ? list.size() : length + 1);
+FormatList hull_formats() {
+  FormatList list{.names = {}, .example = "Fs n"};
+  for (const Format& format : kFormats) {
+    if (format.is_of_hull) list.names.push_back(format.name);
   }
-  return formats;
+  return list;
+}
+
+std::vector<std::string> split_qhull_formats(std::string_view list) {
+  return split_formats(list, hull_formats());
 }
 
 void write_qhull_format(OutputFile& file, std::string_view format, const QhullPrint& print) {
-  const Format& found = find_format(format, false);
+  const Format& found = find_format(format);
   if (found.write != nullptr) found.write(file, print);
 }
 

@@ -13,6 +13,7 @@
 #include "core/points.h"
 #include "tools/io/attached_points.h"
 #include "tools/io/facet_order.h"
+#include "tools/io/format_list.h"
 #include "tools/io/output_file.h"
 
 namespace ndhull {
@@ -40,9 +41,10 @@ struct QhullPrint {
   bool writes_cdd = false;  ///< FD: n, Fo, Fi and p as cdd reads them
 };
 
-/// Splits the list of `ndhull hull --format`, like "n,Fx o", at commas and blanks.
-/// Throws Error kUsage for a format that is not one of
-/// n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s.
+/// What `ndhull hull --format` has: n Fo Fi FV Fx Fv Fn FN i o p Fa FA FS Fs FC s.
+FormatList hull_formats();
+
+/// Splits a list of these; throws as split_formats.
 std::vector<std::string> split_qhull_formats(std::string_view list);
 
 /// Writes one format to `file`: of those, or Fc Ft Fm FI FP FQ. s and FA belong to the summary and write
