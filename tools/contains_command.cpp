@@ -130,23 +130,15 @@ void add_contains_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand(
       "contains",
       "Signed distances of points from outer planes: positive is outside, and which plane says so.");
-  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name())
+  add_path_argument(*command, "PLANES", arguments->planes,
+                    "halfspaces a.x + b <= 0: a file, or - for standard input")
       ->required();
-  command->add_option("QUERIES", arguments->queries, "points: a file, or -")
-      ->type_name("")
-      ->check(path_name())
-      ->required();
-  CLI::Option* const output =
-      command
-          ->add_option(
-              "-o,--output", arguments->output,
-              "where to; default standard output: a line \"distance plane answer\" for each query, in "
-              ".csv and .tsv below these names; .npy: rows distance, plane, answer (1 outside, 0 within the "
-              "width, -1 inside)")
-          ->type_name("FILE")
-          ->check(path_name());
+  add_path_argument(*command, "QUERIES", arguments->queries, "points: a file, or -")->required();
+  CLI::Option* const output = add_file_option(
+      *command, "-o,--output", arguments->output,
+      "where to; default standard output: a line \"distance plane answer\" for each query, in "
+      ".csv and .tsv below these names; .npy: rows distance, plane, answer (1 outside, 0 within the "
+      "width, -1 inside)");
   command
       ->add_option(
           "--width", arguments->width,
@@ -157,11 +149,7 @@ void add_contains_command(CLI::App& app) {
   add_columns_option(*command, arguments->columns);
   command->add_flag("--summary", arguments->summary, "print counts and the furthest query only")
       ->excludes(output);
-  command
-      ->add_option("--threads", arguments->threads,
-                   "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
+  add_threads_option(*command, arguments->threads);
   command->footer(
       "Planes count from 0 in the order of their file. Signs are exact: a query on a plane is not "
       "outside. Without planes, as of an empty selection, every query is inside: distance -inf, plane -1.\n" +

@@ -12,10 +12,7 @@ void add_extreme_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
       "extreme",
       "The vertices of the hull alone, in any dimension; prints a summary where standard output is free.");
-  command->add_option("POINTS", request->points_path, "points: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name())
-      ->required();
+  add_points_argument(*command, request->points_path)->required();
   add_columns_option(*command, request->columns);
   CLI::Option* const keep =
       command
@@ -23,41 +20,25 @@ void add_extreme_command(CLI::App& app, int& exit_code) {
                        "choose K vertices whose hull is near all points, the furthest first")
           ->type_name("K")
           ->check(whole_number(1));
-  command
-      ->add_option("--vertices", request->vertices_path,
-                   "write the indices of the vertices, from 0, with --keep of the chosen ones in their "
-                   "order: .npy, .csv, "
-                   "or text after their number")
-      ->type_name("FILE")
-      ->check(path_name());
-  command
-      ->add_option(
-          "--planes", request->planes_path,
-          "write a plane for each vertex that parts it from all other points: .ine, .npy, or Qhull text")
-      ->type_name("FILE")
-      ->check(path_name());
-  command
-      ->add_option("--distances", request->distances_path,
-                   "write, for each point, a bound of its distance from the hull of the chosen ones: .npy or "
-                   "text")
-      ->type_name("FILE")
-      ->check(path_name())
+  add_file_option(*command, "--vertices", request->vertices_path,
+                  "write the indices of the vertices, from 0, with --keep of the chosen ones in their "
+                  "order: .npy, .csv, "
+                  "or text after their number");
+  add_file_option(
+      *command, "--planes", request->planes_path,
+      "write a plane for each vertex that parts it from all other points: .ine, .npy, or Qhull text");
+  add_file_option(*command, "--distances", request->distances_path,
+                  "write, for each point, a bound of its distance from the hull of the chosen ones: .npy or "
+                  "text")
       ->needs(keep);
-  command->add_option("--report", request->report_path, "write the report, JSON")
-      ->type_name("FILE")
-      ->check(path_name());
+  add_report_option(*command, request->report_path);
   command->add_flag("--verify", request->verify,
                     "check, exactly, that the planes part each vertex from all other points");
   command->add_option("--max-seconds", request->options.max_seconds, "limit: seconds of the search")
       ->type_name("S")
       ->check(positive_number());
-  command
-      ->add_option("--threads", request->options.threads,
-                   "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
-  command->add_flag("--progress", request->progress, "show progress though standard error is no terminal");
-  command->add_flag("--quiet", request->quiet, "no progress, no summary");
+  add_threads_option(*command, request->options.threads);
+  add_progress_options(*command, request->progress, request->quiet);
   command->footer(
       "One linear program a point; no facets are made, so hundreds of dimensions are not too many.\n"
       "Exit code: 0 written, 1 usage or input, 2 --verify failed, 3 internal error, 130 interrupted and "

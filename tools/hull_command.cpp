@@ -23,21 +23,13 @@ struct HullArguments {
 void add_output_options(CLI::App& command, HullArguments& arguments) {
   HullRequest& request = arguments.request;
   add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
-  command
-      .add_option("--vertices", request.vertices_path,
-                  "write the indices of the vertices, from 0: .npy, .csv, or text after their number")
-      ->type_name("FILE")
-      ->check(path_name());
-  CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
-                                  ->type_name("FILE")
-                                  ->check(path_name());
+  add_file_option(command, "--vertices", request.vertices_path,
+                  "write the indices of the vertices, from 0: .npy, .csv, or text after their number");
+  CLI::Option* const report = add_report_option(command, request.report_path);
   command.add_flag("--facet-list", request.facet_list, "put every facet into the report")->needs(report);
-  command
-      .add_option(
-          "--curve", request.curve_path,
-          "write facets against certified width, from this hull to coarser ones: FILE.csv and FILE.svg")
-      ->type_name("FILE")
-      ->check(path_name());
+  add_file_option(
+      command, "--curve", request.curve_path,
+      "write facets against certified width, from this hull to coarser ones: FILE.csv and FILE.svg");
   command.add_flag(
       "--outer-volume", request.outer_volume,
       "volume below the outer planes, whatever it takes within --max-seconds; default: when it costs "
@@ -51,8 +43,7 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
                   "check the hull independently before it is written; `--verify exact`: all of it, exactly")
       ->type_name("[exact]")
       ->check(one_of({"floating", "exact"}));
-  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
-  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+  add_progress_options(command, request.progress, request.quiet);
 }
 
 PlaneKind plane_kind_of(const std::string& name) {
@@ -84,9 +75,7 @@ void add_hull_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
       "hull",
       "The convex hull of points, with certified planes; prints a summary where standard output is free.");
-  command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name());
+  add_points_argument(*command, arguments->request.points_path);
   CLI::Option* const columns = add_columns_option(*command, arguments->request.columns);
   command
       ->add_option(

@@ -48,15 +48,10 @@ void add_options(CLI::App& command, IntersectArguments& arguments) {
       .add_option("--interior-point", arguments.interior_point,
                   "a point strictly inside, \"x y ..\"; by default the centre of a largest ball")
       ->type_name("POINT");
-  command
-      .add_option("--vertices", request.vertices_path,
-                  "write the vertices: .npy, .csv, .tsv, .ext or Qhull text")
-      ->type_name("FILE")
-      ->check(path_name());
+  add_file_option(command, "--vertices", request.vertices_path,
+                  "write the vertices: .npy, .csv, .tsv, .ext or Qhull text");
   CLI::Option* const report =
-      command.add_option("--report", request.report_path, "write the report, JSON, with volume and area")
-          ->type_name("FILE")
-          ->check(path_name());
+      add_report_option(command, request.report_path, "write the report, JSON, with volume and area");
   command.add_flag("--vertex-list", request.vertex_list, "put every vertex into the report")->needs(report);
   command
       .add_option("--format", arguments.format,
@@ -74,18 +69,9 @@ void add_options(CLI::App& command, IntersectArguments& arguments) {
       .add_option("--max-memory", arguments.max_memory, "limit: memory of the tables, like 4G, 512M or 65536")
       ->type_name("B")
       ->check(some_text());
-  command
-      .add_option("--threads", options.threads,
-                  "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
-  command
-      .add_option("--seed", options.seed,
-                  "of the shifts below roundoff that settle degenerate cases; default 1")
-      ->type_name("S")
-      ->check(whole_number(0));
-  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
-  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+  add_threads_option(command, options.threads);
+  add_seed_option(command, options.seed, kOfShifts);
+  add_progress_options(command, request.progress, request.quiet);
 }
 
 IntersectRequest complete_request(const CLI::App& command, const IntersectArguments& arguments) {
@@ -106,11 +92,8 @@ void add_intersect_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<IntersectArguments>();
   CLI::App* const command = app.add_subcommand(
       "intersect", "What halfspaces a.x + b <= 0 have in common: vertices, volume, or why there are none.");
-  command
-      ->add_option("HALFSPACES", arguments->request.halfspaces_path,
-                   "halfspaces: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name())
+  add_path_argument(*command, "HALFSPACES", arguments->request.halfspaces_path,
+                    "halfspaces: a file, or - for standard input")
       ->required();
   add_options(*command, *arguments);
   command->footer(

@@ -44,27 +44,17 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
       ->type_name("N")
       ->check(whole_number(1));
   command.add_flag("--bounded", options.bounded, "add facets until the outer planes bound a region");
-  command
-      .add_option("--threads", options.threads,
-                  "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
-  command.add_option("--seed", options.seed, "of the rays; default 1")
-      ->type_name("S")
-      ->check(whole_number(0));
+  add_threads_option(command, options.threads);
+  add_seed_option(command, options.seed, "of the rays");
 }
 
 void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
   add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
-  command
-      .add_option("--vertices", request.vertices_path,
-                  "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number")
-      ->type_name("FILE")
-      ->check(path_name());
-  CLI::Option* const report = command.add_option("--report", request.report_path, "write the report, JSON")
-                                  ->type_name("FILE")
-                                  ->check(path_name());
+  add_file_option(
+      command, "--vertices", request.vertices_path,
+      "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number");
+  CLI::Option* const report = add_report_option(command, request.report_path);
   command.add_flag("--facet-list", request.facet_list, "put planes and vertices into the report")
       ->needs(report);
   command
@@ -74,8 +64,7 @@ void add_output_options(CLI::App& command, LargestArguments& arguments) {
       ->type_name("LIST");
   command.add_flag("--verify", request.verify,
                    "check, exactly, that no point is above an outer plane before anything is written");
-  command.add_flag("--progress", request.progress, "show progress though standard error is no terminal");
-  command.add_flag("--quiet", request.quiet, "no progress, no summary");
+  add_progress_options(command, request.progress, request.quiet);
 }
 
 LargestRequest complete_request(const CLI::App& command, const LargestArguments& arguments) {
@@ -95,10 +84,7 @@ void add_largest_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
       "largest",
       "The largest facets, also of a hull too big to build; prints a summary where standard output is free.");
-  command->add_option("POINTS", arguments->request.points_path, "points: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name())
-      ->required();
+  add_points_argument(*command, arguments->request.points_path)->required();
   add_columns_option(*command, arguments->request.columns);
   add_search_options(*command, *arguments);
   add_output_options(*command, *arguments);

@@ -50,24 +50,15 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command =
       app.add_subcommand("verify", "Is every point below every plane? Exit code 2 if not.");
-  command->add_option("POINTS", arguments->points, "points: a file, or - for standard input")
-      ->type_name("")
-      ->check(path_name())
-      ->required();
-  command->add_option("PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or -")
-      ->type_name("")
-      ->check(path_name())
+  add_points_argument(*command, arguments->points)->required();
+  add_path_argument(*command, "PLANES", arguments->planes, "halfspaces a.x + b <= 0: a file, or -")
       ->required();
   add_columns_option(*command, arguments->columns);
-  command
-      ->add_option("--threads", arguments->threads,
-                   "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
+  add_threads_option(*command, arguments->threads);
   command->footer(
       "Numbers are taken as the doubles they are read to; a point on a plane is not above it.\n"
-      "Points and planes count from 0.\n"
-      "Example: ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy");
+      "Points and planes count from 0.\n" +
+      example("ndhull hull points.npy --planes outer.npy && ndhull verify points.npy outer.npy"));
   command->callback([arguments, &exit_code] {
     const PlaneCheck check =
         verify_files(arguments->points, arguments->planes, arguments->threads, arguments->columns);

@@ -73,6 +73,42 @@ CLI::Validator some_text() {
   return {check, ""};
 }
 
+CLI::Option* add_path_argument(CLI::App& command, const std::string& name, std::string& path,
+                               const std::string& help) {
+  return command.add_option(name, path, help)->type_name("")->check(path_name());
+}
+
+CLI::Option* add_points_argument(CLI::App& command, std::string& path) {
+  return add_path_argument(command, "POINTS", path, "points: a file, or - for standard input");
+}
+
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, std::string& path,
+                             const std::string& help) {
+  return command.add_option(name, path, help)->type_name("FILE")->check(path_name());
+}
+
+CLI::Option* add_report_option(CLI::App& command, std::string& path, const std::string& help) {
+  return add_file_option(command, "--report", path, help);
+}
+
+void add_threads_option(CLI::App& command, unsigned& threads) {
+  command
+      .add_option("--threads", threads, "0, the default: all cores; the result is the same for any number")
+      ->type_name("N")
+      ->check(whole_number(0, kMostThreads));
+}
+
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& of_what) {
+  command.add_option("--seed", seed, fmt::format("{}; default {}", of_what, seed))
+      ->type_name("S")
+      ->check(whole_number(0));
+}
+
+void add_progress_options(CLI::App& command, bool& progress, bool& quiet) {
+  command.add_flag("--progress", progress, "show progress though standard error is no terminal");
+  command.add_flag("--quiet", quiet, "no progress, no summary");
+}
+
 CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
   return command
       .add_option_function<std::string>(
@@ -83,12 +119,9 @@ CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
 }
 
 void add_plane_options(CLI::App& command, std::string& path, std::string& kind, bool& equations) {
-  CLI::Option* const planes = command
-                                  .add_option("--planes", path,
+  CLI::Option* const planes = add_file_option(command, "--planes", path,
                                               "write the facets' planes a.x + b <= 0, rows a b in input "
-                                              "units: .npy, .csv, .tsv, .ine or Qhull text")
-                                  ->type_name("FILE")
-                                  ->check(path_name());
+                                              "units: .npy, .csv, .tsv, .ine or Qhull text");
   command
       .add_option("--plane-kind", kind,
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")

@@ -28,6 +28,31 @@ CLI::Validator some_text();
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
 inline constexpr std::uint64_t kMostThreads = 1024;
 
+/// Adds a path that stands behind the command, "-" being standard input. Commands that cannot do without it
+/// say so.
+CLI::Option* add_path_argument(CLI::App& command, const std::string& name, std::string& path,
+                               const std::string& help);
+/// Adds POINTS.
+CLI::Option* add_points_argument(CLI::App& command, std::string& path);
+
+/// Adds an option that says where something is written.
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, std::string& path,
+                             const std::string& help);
+/// Adds --report.
+CLI::Option* add_report_option(CLI::App& command, std::string& path,
+                               const std::string& help = "write the report, JSON");
+
+/// Adds --threads.
+void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// Of numbers that degenerate cases need, for add_seed_option.
+inline constexpr const char* kOfShifts = "of the shifts below roundoff that settle degenerate cases";
+/// Adds --seed; `of_what` says of which numbers, and the default is the one that `seed` has.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& of_what);
+
+/// Adds --progress and --quiet.
+void add_progress_options(CLI::App& command, bool& progress, bool& quiet);
+
 /// Adds --columns, of the points.
 CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns);
 

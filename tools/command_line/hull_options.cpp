@@ -131,16 +131,8 @@ void HullOptionSet::add_to(CLI::App& command) {
                    "measure offsets, widths and roundoff after scaling the input to the unit cube");
   command.add_flag("--triangulate", options_.triangulate,
                    "leave facets simplices: no coplanar ones are merged");
-  command
-      .add_option("--threads", options_.threads,
-                  "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
-  command
-      .add_option("--seed", options_.seed,
-                  "of the shifts below roundoff that settle degenerate cases; default 1")
-      ->type_name("S")
-      ->check(whole_number(0));
+  add_threads_option(command, options_.threads);
+  add_seed_option(command, options_.seed, kOfShifts);
 }
 
 HullOptions HullOptionSet::complete() const {

@@ -128,15 +128,10 @@ void add_generate_command(CLI::App& app) {
               "points; default 1000, and for cube-corners, cross-polytope, simplex and lattice all (0)")
           ->type_name("N")
           ->check(whole_number(0, kMostRows));
-  command->add_option("--seed", options.seed, "of the random numbers; default 1")
-      ->type_name("S")
-      ->check(whole_number(0));
+  add_seed_option(*command, options.seed, "of the random numbers");
   add_family_parameters(*command, *arguments);
-  command
-      ->add_option("-o,--output", arguments->path,
-                   "file: .npy, .csv, .tsv, .ext or Qhull text; default - (text)")
-      ->type_name("FILE")
-      ->check(path_name());
+  add_file_option(*command, "-o,--output", arguments->path,
+                  "file: .npy, .csv, .tsv, .ext or Qhull text; default - (text)");
   command->add_flag("--float32", arguments->is_float, "round coordinates to float32");
   command->footer(example("ndhull generate sphere -d 7 -n 100000 --seed 3 -o sphere7.npy"));
   command->callback([arguments, command, count] {
@@ -163,10 +158,8 @@ void add_rbox_command(CLI::App& app) {
   command->add_option("ARGUMENTS", arguments->text, "rbox's arguments as one word, in quotes")
       ->type_name("")
       ->required();
-  command
-      ->add_option("-o,--output", arguments->path, "file: .npy, .csv, .tsv, .ext or text; default - (text)")
-      ->type_name("FILE")
-      ->check(path_name());
+  add_file_option(*command, "-o,--output", arguments->path,
+                  "file: .npy, .csv, .tsv, .ext or text; default - (text)");
   command->footer(example("ndhull rbox \"1000 s D5 t1\" | ndhull hull -"));
   command->callback([arguments] {
     check_outputs_fit({{"--output", arguments->path, OutputKind::kPoints}});

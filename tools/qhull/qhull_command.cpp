@@ -37,11 +37,7 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
                       const std::shared_ptr<QhullArguments>& arguments) {
   CLI::App* const command = app.add_subcommand(name, description);
   command->add_option("OPTIONS", arguments->words, "Qhull's options, in quotes or as words")->type_name("");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "0, the default: all cores; the result is the same for any number")
-      ->type_name("N")
-      ->check(whole_number(0, kMostThreads));
+  add_threads_option(*command, arguments->threads);
   return command;
 }
 

@@ -169,11 +169,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* const command =
       app.add_subcommand("view", "A picture of a hull: shells and facet widths, in section or as a shadow.");
-  command
-      ->add_option("REPORT|POINTS", arguments->source_path,
-                   "a report written with --facet-list, or points; - for standard input")
-      ->type_name("")
-      ->check(path_name())
+  add_path_argument(*command, "REPORT|POINTS", arguments->source_path,
+                    "a report written with --facet-list, or points; - for standard input")
       ->required();
   add_columns_option(*command, arguments->columns);
   add_picture_options(*command, *arguments);
