@@ -17,12 +17,12 @@ namespace {
 struct HullArguments {
   HullRequest request;
   HullOptionSet hull;
-  std::string plane_kind, format, verify;
+  std::string format, verify;
 };
 
 void add_output_options(CLI::App& command, HullArguments& arguments) {
   HullRequest& request = arguments.request;
-  add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
+  add_plane_options(command, request.planes_path, request.plane_kind, request.equations);
   add_file_option(command, "--vertices", request.vertices_path,
                   "write the indices of the vertices, from 0: .npy, .csv, or text after their number");
   CLI::Option* const report = add_report_option(command, request.report_path);
@@ -46,11 +46,6 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
   add_progress_options(command, request.progress, request.quiet);
 }
 
-PlaneKind plane_kind_of(const std::string& name) {
-  if (name == "mean") return PlaneKind::kMean;
-  return name == "inner" ? PlaneKind::kInner : PlaneKind::kOuter;
-}
-
 /// Reads what CLI11 left as text.
 HullRequest complete_request(const CLI::App& command, const HullArguments& arguments) {
   HullRequest request = arguments.request;
@@ -60,7 +55,6 @@ HullRequest complete_request(const CLI::App& command, const HullArguments& argum
   }
   request.options = arguments.hull.complete();
   check_selection(request.selection);
-  request.plane_kind = plane_kind_of(arguments.plane_kind);
   if (command.count("--format") > 0) request.formats = split_qhull_formats(arguments.format);
   if (!arguments.verify.empty()) {
     request.verify = arguments.verify == "exact" ? VerifyMode::kExact : VerifyMode::kFloating;

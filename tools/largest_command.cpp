@@ -13,7 +13,7 @@ namespace {
 /// The options as they are written; `request` has the others.
 struct LargestArguments {
   LargestRequest request;
-  std::string method, plane_kind, format;
+  std::string format;
 };
 
 void add_search_options(CLI::App& command, LargestArguments& arguments) {
@@ -24,12 +24,10 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
   command.add_option("--min-area", options.min_area, "of these only facets at least so large")
       ->type_name("A")
       ->check(positive_number());
-  command
-      .add_option(
-          "--method", arguments.method,
-          "hull (build it), rays (sample and climb), or auto (default): the hull when it can be built")
-      ->type_name("METHOD")
-      ->check(one_of({"auto", "hull", "rays"}));
+  add_word_option(
+      command, "--method", options.method, {LargestMethod::kAuto, LargestMethod::kHull, LargestMethod::kRays},
+      "hull (build it), rays (sample and climb), or auto (default): the hull when it can be built")
+      ->type_name("METHOD");
   command
       .add_option("--rays", options.rays,
                   "shoot exactly so many rays; default: 2048 to 16384, until the largest are stable")
@@ -50,7 +48,7 @@ void add_search_options(CLI::App& command, LargestArguments& arguments) {
 
 void add_output_options(CLI::App& command, LargestArguments& arguments) {
   LargestRequest& request = arguments.request;
-  add_plane_options(command, request.planes_path, arguments.plane_kind, request.equations);
+  add_plane_options(command, request.planes_path, request.plane_kind, request.equations);
   add_file_option(
       command, "--vertices", request.vertices_path,
       "write the indices of the facets' vertices, from 0: .npy, .csv, or text after their number");
@@ -69,10 +67,6 @@ void add_output_options(CLI::App& command, LargestArguments& arguments) {
 
 LargestRequest complete_request(const CLI::App& command, const LargestArguments& arguments) {
   LargestRequest request = arguments.request;
-  if (arguments.method == "hull") request.options.method = LargestMethod::kHull;
-  if (arguments.method == "rays") request.options.method = LargestMethod::kRays;
-  if (arguments.plane_kind == "mean") request.plane_kind = PlaneKind::kMean;
-  if (arguments.plane_kind == "inner") request.plane_kind = PlaneKind::kInner;
   if (command.count("--format") > 0) request.formats = split_formats(arguments.format, largest_formats());
   return request;
 }

@@ -118,15 +118,13 @@ CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns) {
       ->type_name("LIST");
 }
 
-void add_plane_options(CLI::App& command, std::string& path, std::string& kind, bool& equations) {
+void add_plane_options(CLI::App& command, std::string& path, PlaneKind& kind, bool& equations) {
   CLI::Option* const planes = add_file_option(command, "--planes", path,
                                               "write the facets' planes a.x + b <= 0, rows a b in input "
                                               "units: .npy, .csv, .tsv, .ine or Qhull text");
-  command
-      .add_option("--plane-kind", kind,
+  add_word_option(command, "--plane-kind", kind, {PlaneKind::kOuter, PlaneKind::kMean, PlaneKind::kInner},
                   "outer (no input point is above; default), mean, or inner (no vertex is below)")
       ->type_name("KIND")
-      ->check(one_of({"outer", "mean", "inner"}))
       ->needs(planes);
   command
       .add_flag("--equations", equations,

@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "approx/planes/written_planes.h"
 #include "tools/io/column_choice.h"
 
 namespace ndhull {
@@ -27,6 +29,20 @@ CLI::Validator some_text();
 
 /// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
 inline constexpr std::uint64_t kMostThreads = 1024;
+
+/// Adds an option that takes the names, as to_string has them, of some values of an enumeration.
+template <class Enum>
+CLI::Option* add_word_option(CLI::App& command, const std::string& name, Enum& chosen,
+                             const std::vector<Enum>& values, const std::string& help) {
+  std::vector<std::string> words;
+  for (const Enum value : values) words.emplace_back(to_string(value));
+  const auto choose = [&chosen, values](const std::string& word) {
+    for (const Enum value : values) {
+      if (word == to_string(value)) chosen = value;
+    }
+  };
+  return command.add_option_function<std::string>(name, choose, help)->check(one_of(std::move(words)));
+}
 
 /// Adds a path that stands behind the command, "-" being standard input. Commands that cannot do without it
 /// say so.
@@ -57,7 +73,7 @@ void add_progress_options(CLI::App& command, bool& progress, bool& quiet);
 CLI::Option* add_columns_option(CLI::App& command, ColumnChoice& columns);
 
 /// Adds --planes, --plane-kind and --equations, of the facets of a hull.
-void add_plane_options(CLI::App& command, std::string& path, std::string& kind, bool& equations);
+void add_plane_options(CLI::App& command, std::string& path, PlaneKind& kind, bool& equations);
 
 /// The example at the end of a command's help.
 std::string example(const std::string& text);

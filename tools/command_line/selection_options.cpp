@@ -12,19 +12,11 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
       command.add_option("--largest", selection.largest, "select the N facets of largest area")
           ->type_name("N")
           ->check(whole_number(1));
-  command
-      .add_option_function<std::string>(
-          "--select",
-          [&selection](const std::string& word) {
-            for (const SelectionMeasure measure :
-                 {SelectionMeasure::kArea, SelectionMeasure::kVolume, SelectionMeasure::kDistance}) {
-              if (word == to_string(measure)) selection.measure = measure;
-            }
-          },
-          "what --largest means: area (default); volume: the N facets whose outer planes together "
-          "enclose little; distance: those whose outer planes meet nowhere far from the hull")
+  add_word_option(command, "--select", selection.measure,
+                  {SelectionMeasure::kArea, SelectionMeasure::kVolume, SelectionMeasure::kDistance},
+                  "what --largest means: area (default); volume: the N facets whose outer planes together "
+                  "enclose little; distance: those whose outer planes meet nowhere far from the hull")
       ->type_name("MEASURE")
-      ->check(one_of({"area", "volume", "distance"}))
       ->needs(largest);
   command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
       ->type_name("A")
