@@ -37,12 +37,10 @@ using Json = nlohmann::ordered_json;
 
 std::vector<NamedOutput> outputs_of(const ExtremeRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.vertices_path.empty())
-    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
-  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path, OutputKind::kPlanes});
-  if (!request.distances_path.empty())
-    outputs.push_back({"--distances", request.distances_path, OutputKind::kNumbers});
-  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  add_output(outputs, "--vertices", request.vertices_path, OutputKind::kNumbers);
+  add_output(outputs, "--planes", request.planes_path, OutputKind::kPlanes);
+  add_output(outputs, "--distances", request.distances_path, OutputKind::kNumbers);
+  add_output(outputs, "--report", request.report_path);
   return outputs;
 }
 
@@ -244,7 +242,7 @@ int run_extreme(const ExtremeRequest& asked) {
   outcome.total_seconds = seconds_since(start);
   progress.clear();
   if (!request.report_path.empty()) write_text(request.report_path, report_json(request, outcome));
-  if (!request.uses_standard_output() && !request.quiet) write_text("-", summary(request, outcome));
+  if (!use_standard_output(outputs) && !request.quiet) write_text("-", summary(request, outcome));
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -20,10 +20,6 @@ struct ExtremeRequest {
   bool verify = false;
   bool progress = false;
   bool quiet = false;
-
-  bool uses_standard_output() const {
-    return vertices_path == "-" || planes_path == "-" || distances_path == "-" || report_path == "-";
-  }
 };
 
 /// Reads the points, finds their vertices, chooses among them if asked, verifies, and writes what was asked

@@ -36,15 +36,14 @@ namespace {
 
 std::vector<NamedOutput> outputs_of(const HullRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path, OutputKind::kPlanes});
-  if (!request.vertices_path.empty())
-    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
-  if (!request.formats.empty()) outputs.push_back({"--format", "-"});
-  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  add_output(outputs, "--planes", request.planes_path, OutputKind::kPlanes);
+  add_output(outputs, "--vertices", request.vertices_path, OutputKind::kNumbers);
+  add_output(outputs, "--format", request.formats.empty() ? "" : "-");
+  add_output(outputs, "--report", request.report_path);
   if (!request.curve_path.empty()) {
     const CurvePaths paths = curve_paths(request.curve_path);
-    outputs.push_back({"--curve", paths.table});
-    outputs.push_back({"--curve", paths.picture});
+    add_output(outputs, "--curve", paths.table);
+    add_output(outputs, "--curve", paths.picture);
   }
   return outputs;
 }
@@ -300,8 +299,8 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   }
   std::optional<OuterVolume> outer;
   std::optional<OuterDistance> outer_reach;
-  const bool is_summary = !request.uses_standard_output() && !request.quiet;
-  if (!request.report_path.empty() || (is_summary && !request.has_output())) {
+  const bool is_summary = !use_standard_output(outputs) && !request.quiet;
+  if (!request.report_path.empty() || (is_summary && outputs.empty())) {
     progress.show_phase("outer volume");
     const Clock::time_point volume_start = Clock::now();
     arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });

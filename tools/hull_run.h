@@ -32,14 +32,6 @@ struct HullRequest {
   std::optional<VerifyMode> verify;
   bool progress = false;
   bool quiet = false;
-
-  bool has_output() const {
-    return !planes_path.empty() || !vertices_path.empty() || !report_path.empty() || !curve_path.empty() ||
-           !formats.empty();
-  }
-  bool uses_standard_output() const {
-    return planes_path == "-" || vertices_path == "-" || report_path == "-" || !formats.empty();
-  }
 };
 
 /// Reads the points, computes their hull, selects facets and verifies it if asked, and writes what was asked

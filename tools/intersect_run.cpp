@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -27,10 +26,9 @@ namespace {
 
 std::vector<NamedOutput> outputs_of(const IntersectRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.vertices_path.empty())
-    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kPoints});
-  if (!request.formats.empty()) outputs.push_back({"--format", "-"});
-  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
+  add_output(outputs, "--vertices", request.vertices_path, OutputKind::kPoints);
+  add_output(outputs, "--format", request.formats.empty() ? "" : "-");
+  add_output(outputs, "--report", request.report_path);
   return outputs;
 }
 
@@ -131,9 +129,7 @@ int run_intersect(const IntersectRequest& request) {
                             "halfspaces, or ask for --report only",
                             file.path, describe_without_vertices(intersection)));
   }
-  const bool uses_standard_output = std::any_of(outputs.begin(), outputs.end(),
-                                                [](const NamedOutput& output) { return output.path == "-"; });
-  if (!request.quiet && !uses_standard_output) {
+  if (!request.quiet && !use_standard_output(outputs)) {
     write_text("-", intersection_summary(intersection, request.halfspaces_path));
   } else if (!request.quiet && has_vertices && intersection.status != HullStatus::kComplete) {
     fmt::print(stderr,

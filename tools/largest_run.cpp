@@ -28,11 +28,10 @@ namespace {
 
 std::vector<NamedOutput> outputs_of(const LargestRequest& request) {
   std::vector<NamedOutput> outputs;
-  if (!request.planes_path.empty()) outputs.push_back({"--planes", request.planes_path, OutputKind::kPlanes});
-  if (!request.vertices_path.empty())
-    outputs.push_back({"--vertices", request.vertices_path, OutputKind::kNumbers});
-  if (!request.report_path.empty()) outputs.push_back({"--report", request.report_path});
-  if (!request.formats.empty()) outputs.push_back({"--format", "-"});
+  add_output(outputs, "--planes", request.planes_path, OutputKind::kPlanes);
+  add_output(outputs, "--vertices", request.vertices_path, OutputKind::kNumbers);
+  add_output(outputs, "--report", request.report_path);
+  add_output(outputs, "--format", request.formats.empty() ? "" : "-");
   return outputs;
 }
 
@@ -131,7 +130,7 @@ int run_largest(const LargestRequest& request) {
     file.commit();
   }
   if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
-  if (!request.uses_standard_output() && !request.quiet) write_text("-", largest_summary(found, context));
+  if (!use_standard_output(outputs) && !request.quiet) write_text("-", largest_summary(found, context));
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

@@ -27,10 +27,6 @@ struct LargestRequest {
   bool verify = false;
   bool progress = false;
   bool quiet = false;
-
-  bool uses_standard_output() const {
-    return planes_path == "-" || vertices_path == "-" || report_path == "-" || !formats.empty();
-  }
 };
 
 /// Reads the points, finds their largest facets, verifies their outer planes if asked, and writes what was

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/error.h"
@@ -49,6 +50,16 @@ std::string_view content_of(OutputKind kind) {
 }
 
 }  // namespace
+
+void add_output(std::vector<NamedOutput>& outputs, std::string_view option, const std::string& path,
+                OutputKind kind) {
+  if (!path.empty()) outputs.push_back({option, path, kind});
+}
+
+bool use_standard_output(const std::vector<NamedOutput>& outputs) {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [](const NamedOutput& output) { return output.path == "-"; });
+}
 
 void check_outputs_fit(const std::vector<NamedOutput>& outputs) {
   for (const NamedOutput& output : outputs) {

@@ -19,6 +19,13 @@ struct NamedOutput {
   OutputKind kind = OutputKind::kText;
 };
 
+/// Adds an output unless `path` is empty, as it is where the option is not given.
+void add_output(std::vector<NamedOutput>& outputs, std::string_view option, const std::string& path,
+                OutputKind kind = OutputKind::kText);
+
+/// Does one of them go to standard output?
+bool use_standard_output(const std::vector<NamedOutput>& outputs);
+
 /// Throws Error kUsage for points to a file .ine, planes to a file .ext, and numbers to either: it would not
 /// be read again. Text may go to any.
 void check_outputs_fit(const std::vector<NamedOutput>& outputs);
