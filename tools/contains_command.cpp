@@ -12,14 +12,12 @@
 #include <vector>
 
 #include "approx/planes/contains.h"
-#include "core/error.h"
 #include "tools/command_line/command_options.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/io/file_bytes.h"
-#include "tools/io/halfspace_reader.h"
 #include "tools/io/npy_header.h"
 #include "tools/io/output_file.h"
-#include "tools/io/point_reader.h"
+#include "tools/io/planes_and_points.h"
 
 namespace ndhull {
 namespace {
@@ -101,20 +99,10 @@ void write_summary(const std::vector<PlaneDistance>& distances, double width) {
 }
 
 void run_contains(const ContainsArguments& arguments) {
-  if (arguments.planes == "-" && arguments.queries == "-") {
-    throw Error(ErrorCode::kUsage,
-                "contains: found - for both, expected one of them in a file: standard input is read once");
-  }
-  const HalfspaceFile planes = read_halfspaces(arguments.planes);
-  planes.require_possible();
-  const PointFile queries = read_points(arguments.queries, arguments.columns);
+  const auto [planes, queries] = read_planes_and_points(
+      arguments.planes, arguments.queries, arguments.columns, {.command = "contains", .points = "queries"});
   check_outputs_are_writable({{"--output", arguments.output, OutputKind::kNumbers}},
                              {arguments.planes, arguments.queries});
-  if (planes.dimension != queries.view().dimension) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("{}: found planes in {}-d, expected {}-d as the queries of {}", planes.path,
-                            planes.dimension, queries.view().dimension, queries.path));
-  }
   const std::vector<PlaneDistance> distances = distances_of(queries, planes, arguments.threads);
   if (arguments.summary) {
     write_summary(distances, arguments.width);

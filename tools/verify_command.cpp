@@ -4,30 +4,17 @@
 
 #include <memory>
 
-#include "core/error.h"
 #include "tools/command_line/command_options.h"
-#include "tools/io/halfspace_reader.h"
 #include "tools/io/output_file.h"
-#include "tools/io/point_reader.h"
+#include "tools/io/planes_and_points.h"
 
 namespace ndhull {
 
 PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads,
                         const ColumnChoice& columns) {
-  if (points_path == "-" && planes_path == "-") {
-    throw Error(ErrorCode::kUsage,
-                "verify: found - for both, expected one of them in a file: standard input is read once");
-  }
-  const PointFile points = read_points(points_path, columns);
-  const HalfspaceFile planes = read_halfspaces(planes_path);
-  if (planes.dimension != points.view().dimension) {
-    throw Error(
-        ErrorCode::kUsage,
-        fmt::format("{}: found planes in {}-d, expected {}-d as the points of {}; give the planes of these "
-                    "points",
-                    planes.path, planes.dimension, points.view().dimension, points.path));
-  }
-  planes.require_possible();
+  const auto [planes, points] = read_planes_and_points(
+      planes_path, points_path, columns,
+      {.command = "verify", .points = "points", .remedy = "give the planes of these points"});
   PlaneCheck check = check_planes(points.view(), planes.rows, threads);
   if (check.pairs > 0) check.worst_plane = planes.row_of(check.worst_plane);
   return check;

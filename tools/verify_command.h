@@ -10,8 +10,7 @@
 namespace ndhull {
 
 /// Reads both files and tests every point against every plane; see check_planes.
-/// Throws   Error as read_points and read_halfspaces do; kUsage when their dimensions differ, or both are
-///          "-".
+/// Throws   Error as read_planes_and_points does.
 PlaneCheck verify_files(const std::string& points_path, const std::string& planes_path, unsigned threads,
                         const ColumnChoice& columns = {});
 
