@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "approx/largest_report.h"
 #include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
@@ -22,6 +23,7 @@
 #include "tools/io/plane_writer.h"
 #include "tools/io/point_reader.h"
 #include "tools/largest_formats.h"
+#include "tools/largest_summary.h"
 
 namespace ndhull {
 namespace {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "approx/largest_report.h"
 #include "approx/planes/written_planes.h"
 #include "approx/rays/largest_facets.h"
 #include "tools/io/column_choice.h"
@@ -36,8 +35,5 @@ struct LargestRequest {
 ///          is written; 130 when Ctrl-C came: what there is was written.
 /// Throws   Error as read_points, largest_facets and the writers do; kUsage, kFileWrite as run_hull.
 int run_largest(const LargestRequest& request);
-
-/// The summary, some ten lines.
-std::string largest_summary(const LargestFacets& found, const LargestReportContext& context);
 
 }  // namespace ndhull

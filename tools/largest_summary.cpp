@@ -1,3 +1,5 @@
+#include "tools/largest_summary.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 
 #include "tools/command_line/byte_count.h"
 #include "tools/command_line/summary_text.h"
-#include "tools/largest_run.h"
 
 namespace ndhull {
 namespace {

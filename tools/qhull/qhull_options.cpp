@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "tools/command_line/option_words.h"
 #include "tools/io/text_source.h"
+#include "tools/qhull/option_words.h"
 
 namespace ndhull {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/command_line/option_words.h"
+#include "tools/qhull/option_words.h"
 
 #include <fmt/format.h>
 
