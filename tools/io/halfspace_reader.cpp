@@ -88,17 +88,17 @@ HalfspaceFile read_text_halfspaces(const TextSource& source, const std::string& 
   const char* const rest = read_interior_point(source, kind, point);
   NumberTable table;
   if (rest == nullptr) {
-    table = read_number_text(source, extension, kind, true);
+    table = read_number_text(source, extension, kind);
   } else {
     // Line numbers in messages count from the start of the file, so the point becomes blank lines.
     std::string text(source.begin(), rest);
     std::replace_if(
         text.begin(), text.end(), [](char letter) { return letter != '\n'; }, ' ');
     text.append(rest, source.end());
-    table = read_number_text(TextSource(source.name(), text), extension, kind, true);
+    table = read_number_text(TextSource(source.name(), text), extension, kind);
     if (kind == TextKind::kByContent && point.size() == 2 && table.columns == 2) {
       // A table of 1-d halfspaces, whose first row looks like the header of a point.
-      table = read_number_text(source, extension, kind, true);
+      table = read_number_text(source, extension, kind);
       point.clear();
     } else if (point.size() + 1 != table.columns) {
       source.fail(

@@ -127,11 +127,11 @@ TextSource text_source_of(const FileBytes& bytes, const std::string& name) {
   return {name, text};
 }
 
-NumberTable read_number_text(const TextSource& source, const std::string& extension, TextKind kind,
-                             bool may_be_empty) {
+NumberTable read_number_text(const TextSource& source, const std::string& extension, TextKind kind) {
+  constexpr bool kMayBeEmpty = true;
   source.require_content();
-  return is_qhull_text(source, extension, kind) ? read_qhull_text(source, may_be_empty)
-                                                : read_table(source, {}, may_be_empty);
+  return is_qhull_text(source, extension, kind) ? read_qhull_text(source, kMayBeEmpty)
+                                                : read_table(source, {}, kMayBeEmpty);
 }
 
 PointFile read_points(const std::string& path, const ColumnChoice& columns, std::size_t kept_bytes) {

@@ -65,10 +65,9 @@ PointFile parse_points(FileBytes bytes, const std::string& path, const ColumnCho
 /// Throws as read_points; kBadHeader where there is no line "begin".
 PointFile parse_cdd_points(const FileBytes& bytes, const std::string& path);
 
-/// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does.
-/// `may_be_empty`: a count of 0, or a table of names alone, is no error.
-NumberTable read_number_text(const TextSource& source, const std::string& extension,
-                             TextKind kind = TextKind::kByContent, bool may_be_empty = false);
+/// Reads any text that is one table of numbers: Qhull text, or columns. Throws as read_points does, but a
+/// count of 0, or a table of names alone, is no error.
+NumberTable read_number_text(const TextSource& source, const std::string& extension, TextKind kind);
 
 /// The bytes as text, without a byte order mark; carriage returns that end lines alone become newlines.
 /// Throws kBadHeader for UTF-16, compressed and other binary files, with what they are.

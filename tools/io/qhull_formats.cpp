@@ -1,5 +1,6 @@
 // One table of names, and the formats that are a line or two. The tables of facets are in
-// qhull_facet_formats.cpp, those of points in qhull_point_formats.cpp.
+// qhull_facet_formats.cpp, those of points in qhull_point_formats.cpp, and qhull_formats_summary.cpp has the
+// summary.
 #include "tools/io/qhull_formats.h"
 
 #include <algorithm>
