@@ -1,4 +1,5 @@
-// What the commands' options have in common: checks of what is written, with messages that say what to write.
+// What the commands' options have in common: checks of what is written, with messages that say what to write,
+// and the options that several commands have.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -44,8 +45,8 @@ CLI::Option* add_word_option(CLI::App& command, const std::string& name, Enum& c
   return command.add_option_function<std::string>(name, choose, help)->check(one_of(std::move(words)));
 }
 
-/// Adds a path that stands behind the command, "-" being standard input. Commands that cannot do without it
-/// say so.
+/// Adds a path that stands behind the command without a name of its own; "-" is standard input. It may be
+/// left out unless the caller says that it is required.
 CLI::Option* add_path_argument(CLI::App& command, const std::string& name, std::string& path,
                                const std::string& help);
 /// Adds POINTS.
@@ -61,9 +62,9 @@ CLI::Option* add_report_option(CLI::App& command, std::string& path,
 /// Adds --threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 
-/// Of numbers that degenerate cases need, for add_seed_option.
+/// What --seed is of where a hull is built, for add_seed_option.
 inline constexpr const char* kOfShifts = "of the shifts below roundoff that settle degenerate cases";
-/// Adds --seed; `of_what` says of which numbers, and the default is the one that `seed` has.
+/// Adds --seed; `of_what` says of which numbers. The help's default is what `seed` holds.
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& of_what);
 
 /// Adds --progress and --quiet.
