@@ -1,7 +1,6 @@
 #include "approx/geometry/boundedness.h"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -70,21 +69,13 @@ std::optional<VectorXd> open_among(const RowMatrix& rows) {
   return std::nullopt;
 }
 
-struct EvenAnswer {
-  std::optional<VectorXd> open;
-  double stretch = 1.0;  // as Boundedness has it
-};
-
 /// Of the first `count` rows; all of them say what is even.
-EvenAnswer open_direction(const RowMatrix& rows, Index count) {
+std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
   const EvenNormals even = spread_evenly(rows);
-  if (even.orthogonal) return {even.orthogonal};
+  if (even.orthogonal) return even.orthogonal;
   std::optional<VectorXd> direction = open_among(even.rows.topRows(count));
   if (direction) direction = (even.map * *direction).normalized();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(even.map.transpose() * even.map,
-                                                        Eigen::EigenvaluesOnly);
-  const double least = squares.eigenvalues().minCoeff(), most = squares.eigenvalues().maxCoeff();
-  return {direction, least > 0.0 ? std::sqrt(most / least) : HUGE_VAL};
+  return direction;
 }
 
 /// Many evenly spread normals, of which few are to be found.
@@ -269,11 +260,11 @@ Boundedness open_direction_of(const RowMatrix& given, const RowMatrix& others, c
     all.conservativeResize(rows.rows() + others.rows(), Eigen::NoChange);
     all.bottomRows(others.rows()) = unit_rows(others, directions);
   }
-  const auto [open, stretch] = open_direction(all, rows.rows());
-  if (!open) return {true, {}, 0.0, stretch};
+  const std::optional<VectorXd> open = open_direction(all, rows.rows());
+  if (!open) return {true, {}, 0.0};
   const VectorXd direction = directions * *open;
   return {false, std::vector<double>(direction.data(), direction.data() + direction.size()),
-          rows.rows() == 0 ? 0.0 : (rows * *open).maxCoeff(), stretch};
+          rows.rows() == 0 ? 0.0 : (rows * *open).maxCoeff()};
 }
 
 /// Of `count` rows, `rows_of(step)` being the first of so many each. Of many a part is asked first: what bounds
@@ -283,7 +274,7 @@ Boundedness ask_part_first(Index count, const RowsOf& rows_of, const RowMatrix& 
                            std::span<const double> equations) {
   constexpr Index kPart = 16'384;
   const MatrixXd directions = subspace_directions(dimension, equations);
-  if (directions.cols() == 0) return {true, {}, 0.0, 1.0};  // a point
+  if (directions.cols() == 0) return {true, {}, 0.0};  // a point
   if (count > kPart) {
     Boundedness of_part = open_direction_of(rows_of((count + kPart - 1) / kPart), others, directions);
     if (of_part.bounded) return of_part;

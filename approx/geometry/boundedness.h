@@ -16,9 +16,6 @@ struct Boundedness {
   std::vector<double> direction;
   /// Not bounded: the largest normal_i . u of a unit normal; 0 up to rounding. Without normals 0.
   double margin = 0.0;
-  /// [ratio] How much longer one direction became than another where the normals were spread evenly. Of few
-  /// normals in special places it may make their rounding as long as the rest.
-  double stretch = 1.0;
 };
 
 /// Decides whether the normals positively span the space: only then do they bound a region.

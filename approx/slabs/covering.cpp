@@ -42,6 +42,14 @@ double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::ui
   return low;
 }
 
+/// Of a simplex that is a facet alone.
+FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row) {
+  FittedPlane plane;
+  plane.normal.resize(space.rank());
+  space.normal_of(complex.plane(SimplexId{row}), plane.normal.data());
+  return plane;
+}
+
 }  // namespace
 
 FacetMembers::FacetMembers(const Covering& covering) : begin_(covering.planes.size() + 1, 0) {
@@ -71,6 +79,32 @@ std::span<const std::uint32_t> FacetVertices::list(const SimplicialComplex& comp
     }
   }
   return rows_;
+}
+
+Covering cover_by_simplices(const SimplicialComplex& complex, const WidthSpace& space) {
+  Covering covering;
+  covering.facet_of.assign(complex.row_count, kNone);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (complex.state[row] != SimplexState::kLive) continue;
+    covering.facet_of[row] = static_cast<std::uint32_t>(covering.planes.size());
+    covering.planes.push_back(own_plane(complex, space, row));
+  }
+  return covering;
+}
+
+void free_lone_simplices(const SimplicialComplex& complex, const WidthSpace& space, bool is_convex,
+                         Covering& covering) {
+  const FacetMembers members(covering);
+  PlaneFitWork work;
+  for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
+    FittedPlane& plane = covering.planes[facet];
+    if (members.of(facet).size() != 1 || plane.height == 0.0) continue;
+    const std::uint32_t row = members.of(facet)[0];
+    FittedPlane own = own_plane(complex, space, row);
+    const std::uint32_t vertex = space.row_of(complex.vertices(SimplexId{row})[0]);
+    if (is_convex || measure_plane(space, own.normal, std::span(&vertex, 1), work).width() <= plane.width())
+      plane = std::move(own);
+  }
 }
 
 FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
-#include "approx/geometry/boundedness.h"
 #include "approx/geometry/hull_distance.h"
+#include "approx/geometry/way_out.h"
 #include "approx/reduction/kept_points.h"
 #include "approx/slabs/width_space.h"
 #include "core/growth/vertex_stars.h"
@@ -35,7 +35,7 @@ struct ChosenVertices {
 
 bool bounds_region(const RowFacets& facets, std::size_t rank) {
   if (facets.count() <= rank) return false;
-  return facets.count() > kSurelyBounding || find_open_direction(facets.planes, rank).bounded;
+  return facets.count() > kSurelyBounding || !find_way_out(facets.planes, rank);
 }
 
 std::vector<PointId> corners_of(const CertifiedGrowth& growth, const SimplicialComplex& complex) {

@@ -98,9 +98,14 @@ FacetClusters Approximation::run_merging() {
   hull_.chosen.width_cap = cap;
   hull_.chosen.merges = counts.merges;
   hull_.chosen.refused_merges = counts.refused;
-  FacetClusters clusters = clusters_of(covering, *space_);
-  clusters.release_lone_simplices(growth_.work().complex);
-  return clusters;
+  return facets_of(std::move(covering));
+}
+
+/// A covering that is not changed any more.
+FacetClusters Approximation::facets_of(Covering covering) const {
+  Covering freed = covering;
+  free_lone_simplices(growth_.work().complex, *space_, is_convex(), freed);
+  return clusters_of(keeps_hull(freed) ? freed : covering, *space_);
 }
 
 /// The space of fits: vertices; points outside that reach furthest, one a simplex at most; those met before.
@@ -270,7 +275,7 @@ Covering Approximation::cover_width(double width, std::optional<DualFacets> slab
     ++hull_.chosen.refused_merges;
     slabs = find_disjoint_slabs(width);
     covering = cover();
-    if (covering.planes.size() == live) break;
+    if (covering.planes.size() == live) return cover_by_simplices(complex, *space_);
   }
   hull_.chosen.slab_width = width;
   if (is_worth_joining_again(covering.planes.size(), live)) join_neighbours(covering, width);
@@ -367,7 +372,7 @@ FacetClusters Approximation::run_width() {
       slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }
   hull_.chosen.outside_width = outside_width;
-  return clusters_of(covering, *space_);
+  return facets_of(std::move(covering));
 }
 
 }  // namespace ndhull

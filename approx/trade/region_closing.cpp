@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "approx/geometry/boundedness.h"
+#include "approx/geometry/way_out.h"
 #include "approx/slabs/plane_fit.h"
 #include "core/linear/column_table.h"
 
@@ -17,38 +17,20 @@ namespace {
 /// [ratio] A known facet that faces a direction less than this closes hardly more than there is.
 constexpr double kFacesEnough = 0.1;
 
-std::vector<double> normals_of_some_simplices(const SimplicialComplex& complex, const WidthSpace& space) {
-  constexpr std::size_t kEnough = 256;
-  std::vector<double> normals, normal(space.rank());
-  const std::size_t step = complex.row_count / kEnough + 1;
-  for (std::size_t row = 0; row < complex.row_count; row += step) {
-    if (complex.state[row] != SimplexState::kLive) continue;
-    space.normal_of(complex.plane(SimplexId{static_cast<std::uint32_t>(row)}), normal.data());
-    normals.insert(normals.end(), normal.begin(), normal.end());
-  }
-  return normals;
-}
-
-/// The normals of few wide facets may be balanced, or span the space, by rounding alone, which closes a region
-/// some 1e12 times the hull: those of simplices say what is rounding.
-Boundedness open_but_for_rounding(const SimplicialComplex& complex, const WidthSpace& space,
-                                  const std::vector<double>& normals) {
-  constexpr double kStretched = 30.0;  // rounding, some 1e-12, is far below what counts as open then
+/// In the frame; simplices that stayed alone have their own.
+std::vector<double> planes_of(const SimplicialComplex& complex, const WidthSpace& space,
+                              const Covering& covering) {
   const std::size_t rank = space.rank();
-  Boundedness found = find_open_direction(normals, rank);
-  if (!found.bounded || found.stretch < kStretched) return found;
-  std::vector<double> all = normals_of_some_simplices(complex, space);
-  all.insert(all.begin(), normals.begin(), normals.end());
-  std::vector<std::uint32_t> own(normals.size() / rank);
-  std::iota(own.begin(), own.end(), 0u);
-  return find_open_direction_of(all, rank, own);
-}
-
-std::vector<double> normals_of(const Covering& covering) {
-  std::vector<double> normals;
-  for (const FittedPlane& plane : covering.planes)
-    normals.insert(normals.end(), plane.normal.begin(), plane.normal.end());
-  return normals;
+  std::vector<double> planes(covering.planes.size() * rank);
+  for (std::size_t facet = 0; facet < covering.planes.size(); ++facet)
+    if (const FittedPlane& plane = covering.planes[facet]; plane.height > 0.0)
+      space.plane_of(plane.normal.data(), plane.height, planes.data() + facet * rank);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    const std::uint32_t facet = covering.facet_of[row];
+    if (facet != kNone && !(covering.planes[facet].height > 0.0))
+      std::ranges::copy(complex.plane(SimplexId{row}), planes.data() + facet * rank);
+  }
+  return planes;
 }
 
 class RegionCloser {
@@ -62,15 +44,15 @@ class RegionCloser {
         covering_(covering),
         rank_(space.rank()),
         size_of_(covering.planes.size(), 0),
-        normals_(normals_of(covering)) {
+        planes_(planes_of(complex, space, covering)) {
     for (const std::uint32_t facet : covering.facet_of)
       if (facet != kNone) ++size_of_[facet];
   }
 
   std::size_t run() {
     for (std::size_t left = 8 * rank_; left > 0; --left) {
-      const Boundedness found = open_but_for_rounding(complex_, space_, normals_);
-      if (found.bounded || !close(found.direction)) break;
+      const std::optional<std::vector<double>> way_out = find_way_out(planes_, rank_);
+      if (!way_out || !close(*way_out)) break;
     }
     return taken_;
   }
@@ -82,12 +64,8 @@ class RegionCloser {
     std::uint32_t row = kNone;
   };
 
-  /// False: all that face it are facets already.
-  bool close(std::span<const double> direction) {
-    std::vector<double> along(rank_);
-    space_.facing(direction.data(), along.data());
-    const double length = std::sqrt(std::inner_product(along.begin(), along.end(), along.begin(), 0.0));
-    for (double& entry : along) entry /= length;
+  /// `along`: in the frame. False: all that face it are facets already.
+  bool close(std::span<const double> along) {
     const Facing best = facing_most(along);
     if (best.row == kNone) return false;
     if (!known_ || reach_above(best.row) <= known_->width) return take(best.row);
@@ -131,8 +109,9 @@ class RegionCloser {
     covering_.facet_of[row] = static_cast<std::uint32_t>(covering_.planes.size());
     size_of_.push_back(1);
     std::vector<double> normal(rank_);
-    space_.normal_of(complex_.plane(SimplexId{row}), normal.data());
-    normals_.insert(normals_.end(), normal.begin(), normal.end());
+    const auto plane = complex_.plane(SimplexId{row});
+    space_.normal_of(plane, normal.data());
+    planes_.insert(planes_.end(), plane.begin(), plane.end());
     covering_.planes.push_back({normal, 0.0, 0.0});
     ++taken_;
     return true;
@@ -157,9 +136,7 @@ class RegionCloser {
     std::ranges::copy_if(vertices, std::back_inserter(missing), is_missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    std::vector<double> normal(rank_);
-    space_.normal_of(facet->duals, normal.data());
-    normals_.insert(normals_.end(), normal.begin(), normal.end());
+    planes_.insert(planes_.end(), facet->duals.begin(), facet->duals.end());
     return true;
   }
 
@@ -198,7 +175,7 @@ class RegionCloser {
   Covering& covering_;
   std::size_t rank_;
   std::vector<std::uint32_t> size_of_;
-  std::vector<double> normals_;
+  std::vector<double> planes_;  // in the frame
   std::vector<std::uint8_t> is_wanted_;
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
@@ -209,7 +186,7 @@ class RegionCloser {
 
 bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering) {
   return covering.planes.size() > kSurelyBounded ||
-         open_but_for_rounding(complex, space, normals_of(covering)).bounded;
+         !find_way_out(planes_of(complex, space, covering), space.rank());
 }
 
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,

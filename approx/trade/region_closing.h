@@ -15,10 +15,9 @@ namespace ndhull {
 /// So many facets of which none is wider than the hull is high everywhere bound a region.
 inline constexpr std::size_t kSurelyBounded = 1000;
 
-/// Do the facets' planes bound a region, and not by the rounding of their normals alone? Of more than
-/// kSurelyBounded facets: yes.
-/// Cost  a search for an open direction (approx/geometry/boundedness.h);
-///       where that stretched normals much two.
+/// Do the facets' planes bound a region that is not a thousand times the hull? Of more
+/// than kSurelyBounded facets: yes.
+/// Cost  find_way_out.
 bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering);
 
 /// Facets of the hull of all points of a WidthSpace, which growth may have left out points of. They are
@@ -41,8 +40,7 @@ struct HullFacets {
 /// Shapes    coordinates: points x rank, in the frame.
 /// Not promised  that a direction is closed where points share planes: the facet found there may be divided
 ///           into other simplices, and the one that faces it most is taken, however far points are above it.
-/// Cost      a search for an open direction (approx/geometry/boundedness.h) for each, and a product
-///           for each simplex; for each facet looked for a linear program with a column for each point, and a
+/// Cost      find_way_out for each, and a product for each simplex; for each facet looked for a linear program with a column for each point, and a
 ///           look at each simplex.
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
                                   const double* coordinates, HullFacets* known, Covering& covering);

@@ -1,0 +1,54 @@
+#include "approx/geometry/way_out.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "approx/geometry/boundedness.h"
+#include "core/linear/column_simplex.h"
+#include "core/linear/column_table.h"
+
+namespace ndhull {
+namespace {
+
+double norm_of(std::span<const double> vector) {
+  return std::sqrt(std::inner_product(vector.begin(), vector.end(), vector.begin(), 0.0));
+}
+
+std::vector<double> unit_of(std::span<const double> vector) {
+  std::vector<double> result(vector.begin(), vector.end());
+  for (double& entry : result) entry /= norm_of(vector);
+  return result;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> find_way_out(std::span<const double> planes, std::size_t rank) {
+  constexpr double kFar = 1e3;
+  constexpr double kSteps = 0x1p30;  // what differs by rounding alone is equal then: the programs would stall
+  const Boundedness found = find_open_direction(planes, rank);
+  if (!found.bounded) return found.direction;
+  ColumnTable normals(rank, planes.size() / rank);
+  for (std::size_t plane = 0; plane < normals.count(); ++plane) {
+    const std::span<const double> dual = planes.subspan(plane * rank, rank);
+    std::vector<double> normal = unit_of(dual);
+    for (double& entry : normal) entry = std::nearbyint(entry * kSteps) / kSteps;
+    normals.set(plane, normal, 1.0 / norm_of(dual));
+  }
+  // How far the region reaches along an axis is the least sum of weighted distances with which normals add up to it.
+  std::optional<std::vector<double>> furthest;
+  double most = kFar;
+  for (std::size_t side = 0; side < 2 * rank; ++side) {
+    std::vector<double> axis(rank, 0.0);
+    axis[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+    ColumnSimplex lp(axis);
+    const LpResult reach = solve_lp(lp, [&](const LpQuery& query) { return normals.price(query); });
+    if (reach.status == LpStatus::kInfeasible) return unit_of(reach.duals);
+    if (reach.infeasibility > 0.0) return axis;  // stalled: rounding is all that closes it
+    if (reach.status != LpStatus::kOptimal || reach.objective <= most) continue;
+    most = reach.objective;
+    furthest = unit_of(reach.duals);
+  }
+  return furthest;
+}
+
+}  // namespace ndhull
