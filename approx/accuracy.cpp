@@ -40,7 +40,7 @@ void check_facet_target(const Accuracy& accuracy, std::size_t rank) {
 Accuracy above_rounding(Accuracy accuracy, const ResolvedAccuracy& lengths, double shift) {
   constexpr double kShifts = 8.0;
   const double least = kShifts * shift * lengths.largest_extent;
-  if (lengths.width <= least) accuracy.width = {};
+  if (lengths.width <= least && accuracy.width.is_set()) accuracy.width = accuracy.outside_width = {};
   if (lengths.outside_width <= least) accuracy.outside_width = {};
   return accuracy;
 }

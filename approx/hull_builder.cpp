@@ -9,6 +9,7 @@
 #include "approx/facets/exact_facets.h"
 #include "approx/facets/facet_layout.h"
 #include "approx/facets/facet_table.h"
+#include "approx/facets/shifted_vertices.h"
 #include "approx/geometry/frame_planes.h"
 #include "approx/hull_run.h"
 #include "approx/selection/volume_cover.h"
@@ -321,8 +322,12 @@ bool HullBuilder::take_described() {
 
 void HullBuilder::make_facets(const KnownHighest& known) {
   const Clock::time_point start = Clock::now();
-  // Of an approximate hull all vertices of the simplices are vertices of the inner hull: no plane is exact.
-  is_vertex_ = hull_.is_approximate ? corners() : find_vertices(complex(), hull_.layout_, points_.rows);
+  if (!hull_.is_approximate) {
+    is_vertex_ = find_vertices(complex(), hull_.layout_, points_.rows);
+  } else {  // of the inner hull, that of all simplices
+    is_vertex_ =
+        growth_->work().shifted_points.empty() ? corners() : find_vertices_of_shifted(growth_->work());
+  }
   for (std::uint32_t id = 0; id < points_.rows; ++id)
     if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});
   growth_->choose_certificate_points(hull_.layout_.facets);

@@ -1,0 +1,18 @@
+// Vertices of a hull whose points were shifted while it grew, and whose coplanar facets are not known.
+#pragma once
+
+#include <vector>
+
+#include "core/growth/growth.h"
+
+namespace ndhull {
+
+/// Which points are vertices: the corners of the complex but those that lie, to 1e-11, in the hull of the other
+/// ones. A point that was shifted may be a corner though it lies on an edge or a face.
+///
+/// Of several corners that are each in the hull of the others one is left out after the other, while it is.
+/// Cost  a product of each pair of corners, in single precision; for each that is not the furthest along the
+///       mean normal of its simplices a linear program or two with a column for each corner. In parallel.
+std::vector<bool> find_vertices_of_shifted(const GrowthWork& work);
+
+}  // namespace ndhull
