@@ -6,13 +6,15 @@
 //   4 merge           approx/facets/coplanar_merge      simplices on one plane become one facet
 //   2 to 4 otherwise  approx/slabs/star_hull            where the simplices would take too much memory
 //   5 facet table     approx/facets/facet_table         planes in input units, offsets proven, areas
-#include <tbb/task_arena.h>
 
 #include "approx/hull.h"
 #include "approx/hull_builder.h"
+#include "approx/option_check.h"
 #include "approx/reduction/point_reduction.h"
 #include "approx/reduction/reduced_points.h"
 #include "approx/sharded_hull.h"
+#include "core/frame.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 
 namespace ndhull {
@@ -79,19 +81,17 @@ Hull hull_of(const PointView& points, const HullOptions& options) {
   return hull;
 }
 
-tbb::task_arena arena_of(const HullOptions& options) {
-  return tbb::task_arena(options.threads == 0 ? tbb::task_arena::automatic
-                                              : static_cast<int>(options.threads));
-}
-
 }  // namespace
 
 Hull convex_hull(const PointView& points, const HullOptions& options) {
-  return arena_of(options).execute([&] { return hull_of(points, options); });
+  check_shape(points);
+  check_options(options);
+  return arena_of(options.threads).execute([&] { return hull_of(points, options); });
 }
 
 std::optional<ShardedHull> convex_hull_of_shards(const PointShards& shards, const HullOptions& options) {
-  return arena_of(options).execute([&]() -> std::optional<ShardedHull> {
+  check_options(options);
+  return arena_of(options.threads).execute([&]() -> std::optional<ShardedHull> {
     const Clock::time_point start = Clock::now();
     std::optional<PointsToKeep> kept = points_worth_a_copy(shards, options, start);
     ReducedPoints points(shards, kept ? std::move(kept->rows) : rows_of(shards));

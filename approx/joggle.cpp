@@ -63,6 +63,17 @@ double furthest_moved(const PointView& points, const std::vector<double>& joggle
   return std::sqrt(furthest_sq) * (1.0 + static_cast<double>(points.dimension + 4) * kUnit);
 }
 
+/// Of which coordinates move; `roundoff`: of the points.
+double size_of(const JoggleOptions& joggle, double roundoff) {
+  constexpr double kMost = 1e300;
+  const double size = joggle.size == 0.0 ? kDefaultRatio * roundoff : joggle.size;
+  if (size >= roundoff && size <= kMost) return size;
+  throw Error(ErrorCode::kUsage, "joggle: found a size of " + brief(size) +
+                                     ", expected at least the rounding of a distance, " + brief(roundoff) +
+                                     ", and a finite one; give more, or none for the default of " +
+                                     brief(kDefaultRatio * roundoff));
+}
+
 }  // namespace
 
 double joggle_roundoff(const PointView& points) {
@@ -100,13 +111,7 @@ JoggledHull joggled_hull(const PointView& points, const HullOptions& options, co
   const double roundoff = joggle_roundoff(points);
   if (!(roundoff < HUGE_VAL)) fit_frame(points);  // says what is wrong with the points
   JoggledHull result;
-  result.size = joggle.size > 0.0 ? joggle.size : kDefaultRatio * roundoff;
-  if (result.size < roundoff) {
-    throw Error(ErrorCode::kUsage, "joggle: found a size of " + brief(result.size) +
-                                       ", expected at least the rounding of a distance, " + brief(roundoff) +
-                                       "; give more, or none for the default of " +
-                                       brief(kDefaultRatio * roundoff));
-  }
+  result.size = size_of(joggle, roundoff);
   const HullOptions watched = watched_options(options, points.dimension);
   const double most = std::max(result.size, kMostOfExtent * Columns(points).extent);
   for (;; ++result.retries) {
@@ -130,7 +135,7 @@ JoggledHull joggled_hull(const PointView& points, const HullOptions& options, co
 std::uint64_t count_precision_problems(const PointView& points, const HullOptions& options,
                                        const JoggleOptions& joggle, std::uint64_t runs) {
   const HullOptions watched = watched_options(options, points.dimension);
-  const double size = joggle.size > 0.0 ? joggle.size : default_joggle(points);
+  const double size = size_of(joggle, joggle_roundoff(points));
   std::uint64_t problems = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const std::vector<double> joggled = joggled_points(points, size, joggle.seed + run);

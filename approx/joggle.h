@@ -51,7 +51,7 @@ std::vector<double> joggled_points(const PointView& points, double size, std::ui
 /// each time, up to a hundredth of the largest extent.
 ///
 /// Returns   also after a limit or a stop was hit: Hull::status tells.
-/// Throws    Error as convex_hull; kUsage for a size below joggle_roundoff, with both; kUsage after 50
+/// Throws    Error as convex_hull; kUsage for a size below joggle_roundoff, with both, or no number; kUsage after 50
 ///           joggles that all had a problem.
 /// Cost      of convex_hull, once for each joggle.
 JoggledHull joggled_hull(const PointView& points, const HullOptions& options, const JoggleOptions& joggle);

@@ -25,7 +25,7 @@ enum class ErrorCode {
   kTruncated,         ///< a binary file that ends early
   kUnknownType,       ///< a binary element type that is not read
   kDimensionTooLow,   ///< dimension 0
-  kDimensionTooHigh,  ///< the affine rank is above kMaxDimension
+  kDimensionTooHigh,  ///< the affine rank is above kMaxRank, kMaxRayRank or kMaxExtremeRank
   kTooManyPoints,     ///< more rows than 32-bit ids can number
   kTooManySimplices,  ///< a hull that was found without its simplices has too many to list
   kBadHalfspace,      ///< a zero normal, a point that is not inside, or planes that doubles do not tell apart

@@ -23,19 +23,6 @@ constexpr double kRoundoff = 0.5 * std::numeric_limits<double>::epsilon();
 /// then loses at most three of sixteen digits, and the frame keeps exact input exact.
 constexpr double kWellShaped = 1000.0;
 
-void check_shape(const PointView& points) {
-  if (points.dimension == 0) {
-    throw Error(ErrorCode::kDimensionTooLow, "points have 0 columns, expected at least 1; add coordinates");
-  }
-  if (points.rows == 0) {
-    throw Error(ErrorCode::kEmptyInput, "found no points, expected at least 1; give a file with rows");
-  }
-  if (points.rows >= (std::size_t{1} << 31)) {
-    throw Error(ErrorCode::kTooManyPoints, "found " + std::to_string(points.rows) +
-                                               " points, expected fewer than 2147483648; thin them out");
-  }
-}
-
 template <class Scalar>
 void find_column_ranges(const PointView& points, Frame& frame) {
   const Scalar* data = static_cast<const Scalar*>(points.data);
@@ -50,6 +37,17 @@ void find_column_ranges(const PointView& points, Frame& frame) {
       frame.column_min[column] = std::min(frame.column_min[column], x);
       frame.column_max[column] = std::max(frame.column_max[column], x);
     }
+  }
+}
+
+/// Throws Error kNotFinite with row and column.
+void set_column_ranges(const PointView& points, Frame& frame) {
+  frame.column_min.assign(points.dimension, std::numeric_limits<double>::infinity());
+  frame.column_max.assign(points.dimension, -std::numeric_limits<double>::infinity());
+  if (points.type == ScalarType::kFloat64) {
+    find_column_ranges<double>(points, frame);
+  } else {
+    find_column_ranges<float>(points, frame);
   }
 }
 
@@ -155,6 +153,24 @@ Matrix regular_simplex(Eigen::Index rank) {
 
 }  // namespace
 
+void check_shape(const PointView& points) {
+  if (points.dimension == 0) {
+    throw Error(ErrorCode::kDimensionTooLow, "points have 0 columns, expected at least 1; add coordinates");
+  }
+  if (points.rows == 0) {
+    throw Error(ErrorCode::kEmptyInput, "found no points, expected at least 1; give a file with rows");
+  }
+  if (points.rows >= (std::size_t{1} << 31)) {
+    throw Error(ErrorCode::kTooManyPoints, "found " + std::to_string(points.rows) +
+                                               " points, expected fewer than 2147483648; thin them out");
+  }
+}
+
+void check_finite(const PointView& points) {
+  Frame frame;
+  set_column_ranges(points, frame);
+}
+
 void check_extents(const Frame& frame) {
   constexpr double kLeastExtent = 1e-300;
   for (std::size_t k = 0; k < frame.dimension; ++k) {
@@ -175,13 +191,7 @@ Frame fit_frame(const PointView& points) {
   Frame frame;
   const std::size_t dimension = points.dimension;
   frame.dimension = dimension;
-  frame.column_min.assign(dimension, std::numeric_limits<double>::infinity());
-  frame.column_max.assign(dimension, -std::numeric_limits<double>::infinity());
-  if (points.type == ScalarType::kFloat64) {
-    find_column_ranges<double>(points, frame);
-  } else {
-    find_column_ranges<float>(points, frame);
-  }
+  set_column_ranges(points, frame);
 
   Vector scale(dimension), middle(dimension);
   double input_rounding = 1.0;  // [ratio] largest coordinate in scaled units: rounding of the input itself

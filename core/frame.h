@@ -42,6 +42,12 @@ struct Frame {
 /// Cost      O(n d rank) time, 8 n d bytes of scratch.
 Frame fit_frame(const PointView& points);
 
+/// Throws Error kDimensionTooLow, kEmptyInput, kTooManyPoints: no columns, no rows, more than ids can number.
+void check_shape(const PointView& points);
+
+/// Throws Error kNotFinite with the first row, and its column, that has NaN or infinity.
+void check_finite(const PointView& points);
+
 /// Throws Error kOutOfRange where a column varies by less than 1e-300 or by more than doubles hold: planes
 /// would not be doubles.
 void check_extents(const Frame& frame);

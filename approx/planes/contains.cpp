@@ -2,14 +2,14 @@
 // the largest product is remembered and searched at the end, or all where rounding hides which it is.
 #include "approx/planes/contains.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "approx/polytope/halfspace_set.h"
 #include "core/error.h"
+#include "core/frame.h"
+#include "core/machine/arena.h"
 #include "core/machine/blocks.h"
 #include "core/plane_value.h"
 #include "core/search/plane_kernels.h"
@@ -149,9 +149,10 @@ std::vector<PlaneDistance> distances_to_planes(const PointView& queries, std::sp
                                        " numbers of planes, expected rows of " +
                                        std::to_string(queries.dimension + 1));
   }
+  check_finite(queries);
   const Comparer comparer(queries, planes);
   std::vector<PlaneDistance> distances(queries.rows);
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  tbb::task_arena arena = arena_of(threads);
   arena.execute([&] {
     for_each_block(queries.rows, kQueryBlock, [&](std::size_t begin, std::size_t end) {
       comparer.compare(begin, {distances.data() + begin, end - begin});

@@ -23,7 +23,8 @@ struct PlaneDistance {
 /// Error    of a distance: (d / 2 + 4) 2^-53 of itself, nearly all from the normal's length. Of two planes
 ///          whose distances differ by less either may be named.
 /// Threads  0: all cores. The result does not depend on it.
-/// Throws   Error as HalfspaceSet does; kEmptyInput without planes; kUsage for rows of another length.
+/// Throws   Error as HalfspaceSet does; kEmptyInput without planes; kUsage for rows of another length;
+///          kNotFinite for a query with NaN or infinity.
 /// Cost     queries x planes x (dimension + 1) multiplications, close to the machine's peak. A query that
 ///          rounding leaves two planes for is compared with all planes once more.
 std::vector<PlaneDistance> distances_to_planes(const PointView& queries, std::span<const double> planes,

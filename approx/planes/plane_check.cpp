@@ -1,12 +1,11 @@
 #include "approx/planes/plane_check.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <string>
 
 #include "approx/planes/plane_scan.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 
 namespace ndhull {
 namespace {
@@ -52,7 +51,7 @@ void refuse_unusable(const PointView& points, std::span<const double> planes) {
 PlaneCheck check_planes(const PointView& points, std::span<const double> planes, unsigned threads) {
   refuse_unusable(points, planes);
   const PlaneRows rows(planes, points.dimension);
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  tbb::task_arena arena = arena_of(threads);
   const PlaneScan scan =
       arena.execute([&] { return scan_planes(points, rows, DoubtfulSign::kExtendedThenExact); });
   PlaneCheck check;

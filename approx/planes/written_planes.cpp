@@ -102,6 +102,7 @@ double written_offset(const CentredPlane& plane, std::span<const double> largest
 
 void WrittenPlanes::fill(FacetId facet, std::span<double> row) const {
   const std::span<const double> normal = hull_.normal(facet);
+  NDHULL_CHECK(row.size() == normal.size() + 1);
   std::copy(normal.begin(), normal.end(), row.begin());
   double& offset = row[normal.size()];
   CentredPlane plane{normal, hull_.reference, hull_.centred_offset(facet), 0.0,

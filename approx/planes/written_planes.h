@@ -40,7 +40,7 @@ class WrittenPlanes {
  public:
   WrittenPlanes(const Hull& hull, const PointView& points, PlaneKind kind);
 
-  /// Fills `row` with dimension + 1 numbers: unit outward normal, offset.
+  /// Fills `row`, which has dimension + 1 numbers: unit outward normal, offset.
   /// Throws Error kNotFinite where the offset overflows: coordinates near the largest double.
   void fill(FacetId facet, std::span<double> row) const;
 

@@ -7,8 +7,6 @@
 //   6 measure     approx/polytope/polytope_measure   volume, areas
 #include "approx/polytope/halfspace_intersection.h"
 
-#include <tbb/task_arena.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -24,6 +22,7 @@
 #include "approx/work_end.h"
 #include "core/error.h"
 #include "core/linear/dense_views.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 
 namespace ndhull {
@@ -277,10 +276,9 @@ std::string_view to_string(IntersectionKind kind) {
 }
 
 HalfspaceIntersection intersect_halfspaces(const PointView& halfspaces, const IntersectionOptions& options) {
+  HalfspaceSet::check_shape(halfspaces);
   if (halfspaces.rows == 0) throw Error(ErrorCode::kEmptyInput, "found no halfspaces, expected one or more");
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
-                                             : static_cast<int>(options.threads));
-  return arena.execute([&] { return intersect(halfspaces, options); });
+  return arena_of(options.threads).execute([&] { return intersect(halfspaces, options); });
 }
 
 }  // namespace ndhull

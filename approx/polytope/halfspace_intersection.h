@@ -74,7 +74,9 @@ struct HalfspaceIntersection {
   std::vector<std::uint32_t> equalities;
 
   std::vector<double> vertices;  ///< bounded kinds: rows x dimension
-  IdRows halfspaces_of;  ///< of each vertex: the halfspaces that meet in it, ascending, less equalities
+  /// Of each vertex: the halfspaces that meet in it, ascending, less equalities and those that only touch the
+  /// region.
+  IdRows halfspaces_of;
   IdRows neighbours_of;  ///< of each vertex: those it shares an edge or, degenerate, a ridge with
   std::vector<std::uint32_t> non_redundant;  ///< ascending, less equalities: without one the region is larger
   double max_residual = 0.0;                 ///< [distance] largest of a vertex from a plane it is on
@@ -97,7 +99,8 @@ struct HalfspaceIntersection {
 /// Merged    Vertices that differ by no more than the rounding of the planes' own numbers, or that the dual
 ///           hull's coplanar merging holds for one, are one vertex with all their halfspaces.
 /// Throws    Error kBadHalfspace a zero normal, or an interior point that is not inside, with the halfspace
-///           and the distance, or a region too long for doubles; kNotFinite; kEmptyInput no rows; kUsage an
+///           and the distance, or a region too long for doubles; kNotFinite, also of the interior point;
+///           kEmptyInput no rows; kDimensionTooLow fewer than two columns; kTooManyPoints 2^31 rows; kUsage an
 ///           interior point of another dimension; kDimensionTooHigh rank above kMaxRank.
 /// Cost      linear programs with rank rows, then the hull of the dual points; `measure`: see
 ///           measure_polytope.

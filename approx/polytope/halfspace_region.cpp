@@ -327,6 +327,11 @@ Error too_long_a_region() {
 HalfspaceRegion find_region(const HalfspaceSet& halfspaces,
                             const std::optional<std::vector<double>>& interior_point) {
   if (!interior_point) return RegionFinder(halfspaces).run();
+  for (const double coordinate : *interior_point) {
+    if (!std::isfinite(coordinate))
+      throw Error(ErrorCode::kNotFinite,
+                  "interior point: found NaN or infinity, expected finite numbers; give another, or none");
+  }
   HalfspaceRegion region;
   region.point = *interior_point;
   const auto dimension = static_cast<Index>(halfspaces.dimension());

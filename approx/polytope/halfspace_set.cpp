@@ -22,7 +22,7 @@ double length_of(std::span<const double> vector) {
 
 }  // namespace
 
-HalfspaceSet::HalfspaceSet(const PointView& rows) : dimension_(rows.dimension - 1) {
+void HalfspaceSet::check_shape(const PointView& rows) {
   if (rows.dimension < 2) {
     throw Error(ErrorCode::kDimensionTooLow,
                 "found " + std::to_string(rows.dimension) +
@@ -32,6 +32,10 @@ HalfspaceSet::HalfspaceSet(const PointView& rows) : dimension_(rows.dimension - 
     throw Error(ErrorCode::kTooManyPoints,
                 "found " + std::to_string(rows.rows) + " halfspaces, expected fewer than 2^31");
   }
+}
+
+HalfspaceSet::HalfspaceSet(const PointView& rows) : dimension_(rows.dimension - 1) {
+  check_shape(rows);
   rows_.resize(rows.rows * rows.dimension);
   lengths_.resize(rows.rows);
   for (std::size_t row = 0; row < rows.rows; ++row) {

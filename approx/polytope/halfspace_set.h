@@ -17,6 +17,8 @@ class HalfspaceSet {
   /// Throws  Error kDimensionTooLow fewer than two columns; kNotFinite row and column of a NaN or infinity;
   ///         kBadHalfspace a zero normal, with its row; kTooManyPoints 2^31 rows or more.
   explicit HalfspaceSet(const PointView& rows);
+  /// Throws what the constructor does of numbers of rows and columns.
+  static void check_shape(const PointView& rows);
 
   std::size_t dimension() const { return dimension_; }
   std::size_t count() const { return lengths_.size(); }

@@ -1,7 +1,5 @@
 #include "approx/polytope/outer_volume.h"
 
-#include <tbb/task_arena.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "approx/geometry/boundedness.h"
 #include "approx/geometry/subspace.h"
 #include "approx/polytope/plane_polytope.h"
+#include "core/machine/arena.h"
 #include "core/machine/blocks.h"
 #include "core/machine/stopwatch.h"
 
@@ -135,7 +134,7 @@ OuterVolume outer_volume(const Hull& hull, std::span<const FacetId> facets, cons
   if (hull.rank == 0) return {0.0, ""};
   const Clock::time_point start = Clock::now();
   constexpr double kNarrow = 1.0 + 1e-10;
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  tbb::task_arena arena = arena_of(threads);
   const double scale =
       facets.empty() ? arena.execute([&] { return scale_of_outer_polytope(hull); }) : HUGE_VAL;
   const double most = hull.volume * std::pow(scale, static_cast<double>(hull.rank));

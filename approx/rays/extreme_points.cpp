@@ -1,7 +1,5 @@
 #include "approx/rays/extreme_points.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +9,7 @@
 #include "approx/rays/parting_planes.h"
 #include "approx/rays/ray_shooting.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 
 namespace ndhull {
@@ -353,9 +352,9 @@ std::string_view to_string(ExtremeStatus status) {
 ExtremePoints extreme_points(const PointView& points, const ExtremeOptions& options) {
   const Clock::time_point start = Clock::now();
   ExtremePoints result;
+  check_shape(points);
   result.point_count = points.rows;
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
-                                             : static_cast<int>(options.threads));
+  tbb::task_arena arena = arena_of(options.threads);
   arena.execute([&] {
     ExtremeSearch search(points, options, start);
     const Frame& frame = search.frame();

@@ -7,8 +7,6 @@
 //   6 sample    approx/rays/sample_bounds     what the rays prove
 #include "approx/rays/largest_facets.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -21,6 +19,7 @@
 #include "approx/rays/largest_search.h"
 #include "approx/rays/plane_certificate.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 
 namespace ndhull {
@@ -167,9 +166,9 @@ std::string_view to_string(FacetOrigin origin) {
 LargestFacets largest_facets(const PointView& points, const LargestOptions& options) {
   const Clock::time_point start = Clock::now();
   LargestFacets result;
+  check_shape(points);
   result.point_count = points.rows;
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
-                                             : static_cast<int>(options.threads));
+  tbb::task_arena arena = arena_of(options.threads);
   arena.execute([&] {
     bool is_done = options.method == LargestMethod::kHull && try_hull(points, options, start, result);
     if (!is_done) {

@@ -72,7 +72,7 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
 
 double FacetGeometry::area_of(double determinant, const std::vector<double>& plane) const {
   const Eigen::Map<const Eigen::VectorXd> a(plane.data(), to_input_.rows());
-  const double per_height = (to_input_.transpose() * a).norm();
+  const double per_height = (to_input_.transpose() * a).stableNorm();
   // In many dimensions the scale may be no double where the area is one.
   const double scaled =
       determinant * per_height / (std::tgamma(static_cast<double>(plane.size())) * volume_scale_.ratio);

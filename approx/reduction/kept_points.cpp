@@ -11,6 +11,7 @@
 #include <string>
 
 #include "approx/geometry/hull_distance.h"
+#include "core/error.h"
 #include "core/machine/blocks.h"
 
 namespace ndhull {
@@ -45,6 +46,7 @@ class Chooser {
         kept_(columns_.leftCols(static_cast<Index>(options.given))),
         found_(vertices.size()),
         is_current_(vertices.size(), false),
+        is_kept_(vertices.size(), false),
         enough_(options.enough) {
     size_ = std::sqrt(columns_.colwise().squaredNorm().maxCoeff());
     const auto first = static_cast<std::uint32_t>(options.given);
@@ -58,6 +60,7 @@ class Chooser {
   }
 
   void keep(std::size_t vertex) {
+    is_kept_[vertex] = true;
     kept_.conservativeResize(Eigen::NoChange, kept_.cols() + 1);
     kept_.col(kept_.cols() - 1) = columns_.col(static_cast<Index>(vertex));
     std::erase_if(far_, [&](std::uint32_t row) { return found_[row].upper <= enough_; });
@@ -68,12 +71,20 @@ class Chooser {
         if (edge.dot(known.gap) < known.lower * known.gap.norm()) is_current_[far_[i]] = 0;
       }
     });
+    // Known, where a search among others could not tell it from them.
+    HullDistance& own = found_[vertex];
+    own = HullDistance{};
+    own.places = {static_cast<std::uint32_t>(kept_.cols() - 1)};
+    own.weights = Eigen::VectorXd::Ones(1);
+    own.gap = Eigen::VectorXd::Zero(columns_.rows());
+    is_current_[vertex] = 1;
   }
 
   /// The vertex that is furthest from the hull of those kept, or one that is near enough as all are. There is
   /// one that was not given.
   std::size_t furthest() {
     while (true) {
+      while (queue_.size() > 1 && is_kept_[queue_.top().vertex]) queue_.pop();
       std::vector<std::uint32_t> looks;
       while (looks.size() < kLooksAtATime && !queue_.empty() && queue_.top().distance > enough_ &&
              is_current_[queue_.top().vertex] == 0) {
@@ -129,12 +140,18 @@ class Chooser {
   Eigen::MatrixXd columns_;  // about the centre
   Eigen::MatrixXd kept_;
   std::vector<HullDistance> found_;
-  std::vector<std::uint8_t> is_current_;
-  std::vector<std::uint32_t> far_;    // those looked at that were further than enough, at least
-  std::priority_queue<Entry> queue_;  // one entry a vertex that was not given
+  std::vector<std::uint8_t> is_current_, is_kept_;  // is_kept_: not of those given
+  std::vector<std::uint32_t> far_;                  // those looked at that were further than enough, at least
+  std::priority_queue<Entry> queue_;                // one entry a vertex that was not given
   double enough_;
   double size_ = 0.0;
 };
+
+void check_centre(const PointView& points, std::span<const double> centre) {
+  if (centre.size() == points.dimension) return;
+  throw Error(ErrorCode::kUsage, "centre: found " + std::to_string(centre.size()) +
+                                     " numbers, expected one a column: " + std::to_string(points.dimension));
+}
 
 }  // namespace
 
@@ -142,6 +159,12 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
                        std::span<const double> centre, const KeepOptions& options) {
   KeptPoints result;
   if (vertices.empty()) return result;
+  check_centre(points, centre);
+  if (options.given > vertices.size() || !(options.enough >= 0.0))
+    throw Error(ErrorCode::kUsage, "points to keep: found " + std::to_string(options.given) + " given of " +
+                                       std::to_string(vertices.size()) + " vertices, enough at " +
+                                       std::to_string(options.enough) +
+                                       ", expected no more than there are, and a distance from 0");
   Chooser chooser(points, vertices, centre, options);
   result.points.assign(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(options.given));
   result.left.resize(vertices.size());
@@ -156,8 +179,10 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
     last_distance = std::min(last_distance, furthest.upper + chooser.vertex_rounding());
     result.distances.push_back(last_distance);
     result.lower = furthest.lower;
-    if (result.points.size() >= std::min(options.count, vertices.size()) || furthest.lower == 0.0) break;
-    if (furthest.upper <= options.enough || options.stop.stop_requested()) break;
+    if (result.points.size() >= std::min(options.count, vertices.size())) break;
+    // Not by `lower`: where the hull is flat 0 is often all that is proven of a point outside.
+    const double enough = std::max(options.enough, chooser.vertex_rounding());
+    if (furthest.upper <= enough || options.stop.stop_requested()) break;
     if (options.progress) {
       options.progress("kept " + std::to_string(result.points.size()) + ", distance " +
                        std::to_string(last_distance));
@@ -170,6 +195,8 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
 
 std::vector<double> distances_from_hull(const PointView& points, std::span<const PointId> hull,
                                         std::span<const double> centre) {
+  check_centre(points, centre);
+  if (hull.empty()) throw Error(ErrorCode::kEmptyInput, "hull: found no points, expected one or more");
   const Eigen::MatrixXd columns = gather_columns(points, hull, centre);
   std::vector<double> distances(points.rows);
   for_each_block(points.rows, 1, [&](std::size_t row, std::size_t) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "approx/option_check.h"
 #include "core/error.h"
 #include "tools/command_line/byte_count.h"
 #include "tools/command_line/command_options.h"
@@ -29,35 +30,6 @@ Length parse_length(const std::string& text, const char* option) {
                                                option, text));
   }
   return length;
-}
-
-/// Options that ask for different things at once.
-void check_accuracy(const Accuracy& accuracy) {
-  const auto refuse = [](std::string_view found, std::string_view remedy) {
-    throw Error(ErrorCode::kUsage, fmt::format("found {}; {}", found, remedy));
-  };
-  if (std::isnan(accuracy.max_cosine)) refuse("--max-cosine nan", "expected a number from -1 to 1");
-  if (accuracy.width.is_set() && accuracy.facets > 0)
-    refuse("--width with --facets", "one is the target, the other what comes out: give one of them");
-  if (accuracy.merges_neighbours() && (accuracy.width.is_set() || accuracy.facets > 0))
-    refuse("--centrum-radius or --max-cosine with a target",
-           "--width and --facets choose how to merge: leave it out");
-  if (accuracy.effort == Effort::kThorough &&
-      ((!accuracy.width.is_set() && accuracy.facets == 0) || accuracy.is_for_volume()))
-    refuse("--effort thorough without a target width", "add --width, or --facets without --objective volume");
-  if (accuracy.width_cap.is_set() && !accuracy.merges_neighbours())
-    refuse("--width-cap without --centrum-radius or --max-cosine", "add one of these: a target needs no cap");
-}
-
-/// Facets of several simplices have one plane.
-void check_triangulate(const HullOptions& options) {
-  const Accuracy& accuracy = options.accuracy;
-  if (!options.triangulate) return;
-  if (accuracy.width.is_set() || accuracy.facets > 0 || accuracy.merges_neighbours())
-    throw Error(
-        ErrorCode::kUsage,
-        "found --triangulate with facets of several simplices, which have one plane; leave it out, and "
-        "print simplices with --format i");
 }
 
 }  // namespace
@@ -142,8 +114,7 @@ HullOptions HullOptionSet::complete() const {
   if (!outside_width_.empty()) accuracy.outside_width = parse_length(outside_width_, "--outside-width");
   if (!centrum_radius_.empty()) accuracy.centrum_radius = parse_length(centrum_radius_, "--centrum-radius");
   if (!width_cap_.empty()) accuracy.width_cap = parse_length(width_cap_, "--width-cap");
-  check_accuracy(accuracy);
-  check_triangulate(options);
+  check_options(options, OptionSpelling::kProgram);
   if (!max_memory_.empty()) options.limits.max_memory_bytes = parse_byte_count(max_memory_, "--max-memory");
   return options;
 }
