@@ -2,7 +2,7 @@
 //   0 large inputs    approx/reduction/point_reduction  points well inside are dropped, each with a proof
 //   1 frame           core/frame                        coordinates to work in, the first simplex, the rank
 //   2 growth          core/growth/growth                insertions, furthest point first
-//   3 certify         core/membership                   every point proven inside, or growth goes on
+//   3 certify         core/complex/membership           every point proven inside, or growth goes on
 //   4 merge           approx/facets/coplanar_merge      simplices on one plane become one facet
 //   2 to 4 otherwise  approx/slabs/star_hull            where the simplices would take too much memory
 //   5 facet table     approx/facets/facet_table         planes in input units, offsets proven, areas

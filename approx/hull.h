@@ -33,8 +33,8 @@ namespace ndhull {
 struct Limits {
   std::uint64_t max_facets = 0;  ///< simplices of the growth complex
   double max_seconds = 0.0;      ///< wall clock of the whole call: growth ends in time for the rest
-  /// What the caller does with each facet within max_seconds after the call, as a share of what growth took
-  /// for it: growth ends in time for that as well. Not of approximate hulls, whose facets are few.
+  /// [ratio] Time that the caller will spend on each facet after the call, over what growth spent on it: with
+  /// max_seconds growth ends early enough for that too. Ignored with a target number of facets.
   double share_afterwards = 0.0;
   std::uint64_t max_memory_bytes = 0;  ///< of all tables of the call, at their largest
   /// [bytes] What the caller makes of each simplex after the call, which these limits are to hold as well.
@@ -66,20 +66,20 @@ struct HullOptions {
   /// Outer offsets are proven. False: they are +infinity, and so are widths; for exact hulls of which only
   /// the planes are wanted.
   bool certifies_planes = true;
-  /// Simplices will be asked for: an exact hull is not looked for by whole facets
-  /// (core/whole_facets/double_description.h), no other taken that has very many simplices, nor one without
-  /// its complex (approx/slabs/star_hull.h).
+  /// The caller will ask for simplices. An exact hull is then grown simplex by simplex rather than found by
+  /// whole facets (core/whole_facets/double_description.h); none is taken that was found without its complex
+  /// (approx/slabs/star_hull.h), or that has very many simplices.
   bool wants_simplices = false;
-  /// False: of an exact hull that a limit or a stop ends nothing but the status is wanted, and it ends at
-  /// once.
+  /// False: when a limit or a request to stop ends an exact hull, only its `status` is wanted, and the call
+  /// returns at once.
   bool wants_partial = true;
   bool unit_cube = false;  ///< widths are measured after scaling the input to the unit cube
   Limits limits = {};
   std::uint64_t seed = 1;  ///< of the inward shifts; the result depends on it below roundoff only
-  /// [ratio] growth's smallest inward shift, see GrowthOptions::shift; ten times as large, and again, where
-  /// data turn out to be about as rough (core/DESIGN.md), unless it is given below the default.
+  /// [ratio] 0 to 1e-6: growth's smallest inward shift, see GrowthOptions::shift; ten times as large, and
+  /// again, where data turn out to be about as rough (core/DESIGN.md), unless it is given below the default.
   double shift = 1e-12;
-  unsigned threads = 0;  ///< of the whole call; 0: all cores. The result does not depend on it.
+  unsigned threads = 0;  ///< of the whole call, 1024 at most; 0: all cores. The result does not depend on it.
   std::function<void(const Progress&)> progress = {};  ///< called from the calling thread
   std::stop_token stop = {};                           ///< a request ends growth: status kInterrupted
 };
@@ -94,8 +94,8 @@ std::string_view to_string(HullStatus status);
 
 /// What an approximate hull was made with; lengths resolved, in the length unit.
 struct AccuracyChosen {
-  /// What a target number of facets made small: not the volume where so few of the exact planes bound no
-  /// region.
+  /// What a target number of facets made small; the width, though the volume was asked for, where so few of
+  /// the exact planes bound no region.
   FacetObjective objective = FacetObjective::kWidth;
   double outside_width = 0.0;  ///< growth left out what was less outside; 0: nothing
   double slab_width = 0.0;     ///< facets were sought within slabs of this width; 0: not by slabs
@@ -165,7 +165,9 @@ class Hull {
   double max_facet_width = 0.0;   ///< [distance]
   /// [ratio] s: all input is in the hull of the vertices scaled by 1 + s about the interior point.
   double max_outside_gauge = 0.0;
-  std::uint64_t points_outside = 0;  ///< input points above some outer plane: 0
+  /// Input points that no proof of the outer planes covers: neither measured against them nor proven
+  /// inside. 0, or the certificate failed.
+  std::uint64_t points_outside = 0;
   HullStatistics statistics;
   AccuracyChosen chosen;
 
@@ -243,7 +245,7 @@ class Hull {
 /// Throws    Error kEmptyInput no rows; kDimensionTooLow dimension 0; kNotFinite NaN or infinity, with row
 ///           and column; kDimensionTooHigh rank above kMaxRank; kTooManyPoints 2^31 rows or more; kOutOfRange
 ///           extents too small or too large to state planes for; kUsage a target of facets that bound no
-///           region.
+///           region, options that contradict each other or are no numbers (approx/option_check.h).
 /// Not promised  the same facets for another seed where data are degenerate below roundoff.
 /// Cost      time and memory grow with the facets of the hull: about 150 bytes each in 8-d, and
 ///           8 rank bytes for each point.

@@ -1,8 +1,6 @@
 #include "approx/hull_builder.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "approx/exact_instead.h"
 #include "approx/facets/coplanar_merge.h"
@@ -334,6 +332,8 @@ void HullBuilder::make_facets(const KnownHighest& known) {
   const bool proves_nothing = is_roughly_flat(points_, frame_);
   if (proves_nothing) growth_->want_all();
   detail("vertices", start);
+  // Where it is known how far all points reach, each of them was asked for.
+  if (proves_nothing || known.highest.empty()) hull_.points_outside = growth_->points_without_proof();
   certify_facets(proves_nothing ? KnownHighest() : known, nullptr);
   hull_.simplex_count_ = complex().row_count;
   hull_.simplices_ = std::move(complex());

@@ -127,8 +127,7 @@ std::string largest_report_json(const LargestFacets& found, const LargestReportC
                      {"certify", found.certify_seconds}, {"verify", context.verify_seconds},
                      {"write", context.write_seconds},   {"total", context.total_seconds}};
   json["peak_memory_bytes"] = context.peak_memory_bytes;
-  // A path may hold any bytes: those that are no UTF-8 are replaced.
-  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  std::string text = report_text(json);
   append_list(text, "largest", found, false);
   if (context.facet_list) append_list(text, "facet_list", found, true);
   return text + '\n';

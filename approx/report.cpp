@@ -19,7 +19,6 @@
 namespace ndhull {
 namespace {
 
-constexpr int kIndent = 2;
 /// [bytes] Text that is gathered before the sink gets it.
 constexpr std::size_t kPieceSize = std::size_t{1} << 16;
 
@@ -248,8 +247,7 @@ std::string_view version() { return NDHULL_VERSION; }
 
 void write_hull_report(const Hull& hull, const ReportContext& context,
                        const std::function<void(std::string_view)>& sink) {
-  // A path may hold any bytes: those that are no UTF-8 are replaced.
-  std::string text = head_of(hull, context).dump(kIndent, ' ', false, Json::error_handler_t::replace);
+  std::string text = report_text(head_of(hull, context));
   if (context.facet_list) {
     text.resize(text.size() - std::string_view("\n}").size());
     text += ",\n  \"facet_list\": [";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <variant>
 
 namespace ndhull {
@@ -12,6 +13,11 @@ using Json = nlohmann::ordered_json;
 template <class Number>
 Json limit(Number value) {
   return value == Number{} ? Json(nullptr) : Json(value);
+}
+
+/// A path may hold any bytes: those that are no UTF-8 are replaced.
+inline std::string report_text(const Json& report) {
+  return report.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Visits an OptionValue.

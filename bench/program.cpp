@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <string>
 
 #include "bench/commands.h"
 #include "bench/machine.h"

@@ -1,7 +1,6 @@
 // Mapping points into the frame, and planes out of it. With a full map the sums are compensated, which needs
 // fused multiply-add to be fast: compiled for each instruction set, chosen at run time.
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/machine/simd_targets.h"

@@ -3,18 +3,18 @@
 #include "tools/extreme_run.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "approx/planes/plane_check.h"
 #include "approx/reduction/kept_points.h"
 #include "approx/report.h"
+#include "approx/report_json.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 #include "core/plane_value.h"
 #include "tools/command_line/byte_count.h"
@@ -32,8 +32,6 @@
 
 namespace ndhull {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<NamedOutput> outputs_of(const ExtremeRequest& request) {
   std::vector<NamedOutput> outputs;
@@ -103,10 +101,6 @@ void write_results(const ExtremeRequest& request, const Outcome& outcome) {
   if (!request.distances_path.empty()) write_numbers(request.distances_path, outcome.distances);
 }
 
-Json option_json(const OptionValue& value) {
-  return std::holds_alternative<std::string>(value) ? Json(std::get<std::string>(value)) : Json(nullptr);
-}
-
 bool knows_all_vertices(const ExtremePoints& found) {
   return found.status == ExtremeStatus::kComplete && found.open_points == 0;
 }
@@ -134,18 +128,17 @@ std::string report_json(const ExtremeRequest& request, const Outcome& outcome) {
                    {"dimension", found.dimension},
                    {"rank", found.rank}};
   json["status"] = to_string(found.status);
-  json["options"] = {
-      {"columns", option_json(text_or_null(request.columns.list()))},
-      {"keep", request.keep == 0 ? Json(nullptr) : Json(request.keep)},
-      {"max_seconds", request.options.max_seconds == 0.0 ? Json(nullptr) : Json(request.options.max_seconds)},
-      {"threads", request.options.threads},
-      {"vertices", option_json(text_or_null(request.vertices_path))},
-      {"planes", option_json(text_or_null(request.planes_path))},
-      {"distances", option_json(text_or_null(request.distances_path))},
-      {"report", option_json(text_or_null(request.report_path))},
-      {"verify", request.verify},
-      {"progress", request.progress},
-      {"quiet", request.quiet}};
+  json["options"] = {{"columns", std::visit(OptionToJson(), text_or_null(request.columns.list()))},
+                     {"keep", limit(request.keep)},
+                     {"max_seconds", limit(request.options.max_seconds)},
+                     {"threads", request.options.threads},
+                     {"vertices", std::visit(OptionToJson(), text_or_null(request.vertices_path))},
+                     {"planes", std::visit(OptionToJson(), text_or_null(request.planes_path))},
+                     {"distances", std::visit(OptionToJson(), text_or_null(request.distances_path))},
+                     {"report", std::visit(OptionToJson(), text_or_null(request.report_path))},
+                     {"verify", request.verify},
+                     {"progress", request.progress},
+                     {"quiet", request.quiet}};
   json["vertices"] = found.vertices.size();
   json["points_inside"] = found.points_inside;
   json["open_points"] = found.open_points;
@@ -167,8 +160,7 @@ std::string report_json(const ExtremeRequest& request, const Outcome& outcome) {
                      {"verify", outcome.verify_seconds},
                      {"total", outcome.total_seconds}};
   json["peak_memory_bytes"] = peak_memory_bytes();
-  // A path may hold any bytes: those that are no UTF-8 are replaced.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return report_text(json) + '\n';
 }
 
 std::string summary(const ExtremeRequest& request, const Outcome& outcome) {
@@ -204,8 +196,7 @@ int run_extreme(const ExtremeRequest& asked) {
   check_outputs_differ(outputs);
   Interrupt interrupt;
   ProgressLine progress(request.progress, request.quiet);
-  tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
-                                                     : static_cast<int>(request.options.threads));
+  tbb::task_arena arena = arena_of(request.options.threads);
   progress.show_phase("read");
   const PointFile points = arena.execute([&] { return read_points(request.points_path, request.columns); });
   check_outputs_are_writable(outputs, {request.points_path});

@@ -12,6 +12,7 @@
 #include "approx/report.h"
 #include "approx/selection/outer_distance.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
@@ -227,8 +228,7 @@ int run_process(const HullRequest& request, const ProcessGroup* group, Clock::ti
   check_outputs_differ(outputs);
   Interrupt interrupt;
   ProgressLine progress(request.progress, request.quiet);
-  tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
-                                                     : static_cast<int>(request.options.threads));
+  tbb::task_arena arena = arena_of(request.options.threads);
 
   progress.show_phase("read");
   std::optional<HullInput> read;

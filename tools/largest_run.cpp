@@ -3,7 +3,6 @@
 #include "tools/largest_run.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "approx/largest_report.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
@@ -82,8 +82,7 @@ int run_largest(const LargestRequest& request) {
   ProgressLine progress(request.progress, request.quiet);
 
   progress.show_phase("read");
-  tbb::task_arena arena(request.options.threads == 0 ? tbb::task_arena::automatic
-                                                     : static_cast<int>(request.options.threads));
+  tbb::task_arena arena = arena_of(request.options.threads);
   const PointFile points = arena.execute([&] { return read_points(request.points_path, request.columns); });
   check_outputs_are_writable(outputs, {request.points_path});
   LargestReportContext context{.input_path = request.points_path,

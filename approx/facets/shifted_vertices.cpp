@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include "core/linear/column_simplex.h"
 #include "core/linear/column_table.h"

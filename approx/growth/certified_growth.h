@@ -125,6 +125,8 @@ class CertifiedGrowth {
   void want_all() { certificate_wanted_.assign(points_.rows, true); }
   /// How far the wanted points reach along the normals of the complex' rows; empty: not known.
   KnownHighest take_known_highest() { return std::move(known_highest_); }
+  /// Points that are neither wanted, nor proven inside, nor among those left out that their gauge covers.
+  std::uint64_t points_without_proof() const;
   /// Every point lies in the hull of the wanted ones scaled by 1 + this about the frame's centre.
   CoveredPoints covered_points() const { return {covered_gauge_, ball_.reach}; }
   /// Progress, from the calling thread: `more_bytes` beside the complex and the points.

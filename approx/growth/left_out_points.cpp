@@ -88,4 +88,14 @@ void CertifiedGrowth::choose_certificate_points(std::size_t facets) {
   for (const LocatedPoint& point : left_out_) certificate_wanted_[point.point.value] = true;
 }
 
+std::uint64_t CertifiedGrowth::points_without_proof() const {
+  std::vector<bool> is_covered(points_.rows, false);
+  if (covered_gauge_ > 0.0)
+    for (const LocatedPoint& point : left_out_) is_covered[point.point.value] = true;
+  std::uint64_t count = 0;
+  for (std::uint32_t id = 0; id < points_.rows; ++id)
+    if (!certificate_wanted_[id] && !is_covered[id] && (proven_.empty() || !proven_[id])) ++count;
+  return count;
+}
+
 }  // namespace ndhull

@@ -1,7 +1,5 @@
 #include "approx/polytope/plane_polytope.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 
 namespace ndhull {

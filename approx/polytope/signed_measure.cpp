@@ -1,6 +1,5 @@
 #include "approx/polytope/signed_measure.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -8,7 +8,6 @@
 #include "approx/rays/largest_facets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 

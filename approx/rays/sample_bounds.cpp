@@ -1,7 +1,6 @@
 #include "approx/rays/sample_bounds.h"
 
 #include <cmath>
-#include <initializer_list>
 
 namespace ndhull {
 namespace {

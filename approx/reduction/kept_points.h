@@ -52,8 +52,8 @@ struct KeepOptions {
 KeptPoints keep_points(const PointView& points, std::span<const PointId> vertices,
                        std::span<const double> centre, const KeepOptions& options);
 
-/// Proven upper bounds of the distance of every input point from the hull of some points, one or more; `centre`
-/// as above.
+/// Proven upper bounds of the distance of every input point from the hull of some points, one or more;
+/// `centre` as above.
 /// Cost  one hull_distance call a point, in parallel.
 std::vector<double> distances_from_hull(const PointView& points, std::span<const PointId> hull,
                                         std::span<const double> centre);

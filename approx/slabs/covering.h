@@ -53,8 +53,8 @@ class FacetVertices {
 /// Every simplex a facet of its own, with its own plane.
 Covering cover_by_simplices(const SimplicialComplex& complex, const WidthSpace& space);
 
-/// Gives facets of one simplex its own plane where no wider facet comes of it. `is_convex`: no point is above any
-/// simplex. Cost  a product with all points of the space for each such facet, unless the hull is convex.
+/// Gives facets of one simplex its own plane where no wider facet comes of it. `is_convex`: no point is above
+/// any simplex. Cost  a product with all points of the space for each such facet, unless the hull is convex.
 void free_lone_simplices(const SimplicialComplex& complex, const WidthSpace& space, bool is_convex,
                          Covering& covering);
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "approx/geometry/gradient_length.h"
 #include "approx/slabs/segment_interval.h"

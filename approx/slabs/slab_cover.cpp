@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "approx/slabs/facet_parts.h"
 #include "core/ids.h"

@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <thread>
 
+#include "approx/geometry/boundedness.h"
+#include "approx/geometry/far_reach.h"
 #include "approx/geometry/hull_distance.h"
-#include "approx/geometry/way_out.h"
 #include "approx/reduction/kept_points.h"
 #include "approx/slabs/width_space.h"
 #include "core/growth/vertex_stars.h"
@@ -35,7 +35,8 @@ struct ChosenVertices {
 
 bool bounds_region(const RowFacets& facets, std::size_t rank) {
   if (facets.count() <= rank) return false;
-  return facets.count() > kSurelyBounding || !find_way_out(facets.planes, rank);
+  return facets.count() > kSurelyBounding ||
+         (find_open_direction(facets.planes, rank).bounded && !find_far_reach(facets.planes, rank));
 }
 
 std::vector<PointId> corners_of(const CertifiedGrowth& growth, const SimplicialComplex& complex) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <span>
 
-#include "approx/geometry/way_out.h"
+#include "approx/geometry/boundedness.h"
+#include "approx/geometry/far_reach.h"
 #include "approx/slabs/plane_fit.h"
 #include "core/linear/column_table.h"
 
@@ -17,21 +17,47 @@ namespace {
 /// [ratio] A known facet that faces a direction less than this closes hardly more than there is.
 constexpr double kFacesEnough = 0.1;
 
-/// In the frame; simplices that stayed alone have their own.
-std::vector<double> planes_of(const SimplicialComplex& complex, const WidthSpace& space,
-                              const Covering& covering) {
-  const std::size_t rank = space.rank();
-  std::vector<double> planes(covering.planes.size() * rank);
-  for (std::size_t facet = 0; facet < covering.planes.size(); ++facet)
-    if (const FittedPlane& plane = covering.planes[facet]; plane.height > 0.0)
-      space.plane_of(plane.normal.data(), plane.height, planes.data() + facet * rank);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    const std::uint32_t facet = covering.facet_of[row];
-    if (facet != kNone && !(covering.planes[facet].height > 0.0))
-      std::ranges::copy(complex.plane(SimplexId{row}), planes.data() + facet * rank);
+/// Planes that are to bound a region.
+class RegionPlanes {
+ public:
+  RegionPlanes(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering)
+      : space_(space), duals_(covering.planes.size() * space.rank()) {
+    const std::size_t rank = space.rank();
+    for (std::size_t facet = 0; facet < covering.planes.size(); ++facet) {
+      const FittedPlane& plane = covering.planes[facet];
+      normals_.insert(normals_.end(), plane.normal.begin(), plane.normal.end());
+      if (plane.height > 0.0) space.plane_of(plane.normal.data(), plane.height, duals_.data() + facet * rank);
+    }
+    // Simplices that stayed alone have their own.
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      const std::uint32_t facet = covering.facet_of[row];
+      if (facet != kNone && !(covering.planes[facet].height > 0.0))
+        std::ranges::copy(complex.plane(SimplexId{row}), duals_.data() + facet * rank);
+    }
   }
-  return planes;
-}
+
+  void add(std::span<const double> dual) {
+    normals_.resize(normals_.size() + space_.rank());
+    space_.normal_of(dual, normals_.data() + duals_.size());
+    duals_.insert(duals_.end(), dual.begin(), dual.end());
+  }
+
+  /// A unit vector of the frame, or none.
+  std::optional<std::vector<double>> find_way_out() const {
+    const std::size_t rank = space_.rank();
+    const Boundedness found = find_open_direction(normals_, rank);
+    if (found.bounded) return find_far_reach(duals_, rank);
+    std::vector<double> along(rank);
+    space_.facing(found.direction.data(), along.data());
+    const double length = std::sqrt(std::inner_product(along.begin(), along.end(), along.begin(), 0.0));
+    for (double& entry : along) entry /= length;
+    return along;
+  }
+
+ private:
+  const WidthSpace& space_;
+  std::vector<double> normals_, duals_;  // in the space, and in the frame
+};
 
 class RegionCloser {
  public:
@@ -44,14 +70,14 @@ class RegionCloser {
         covering_(covering),
         rank_(space.rank()),
         size_of_(covering.planes.size(), 0),
-        planes_(planes_of(complex, space, covering)) {
+        planes_(complex, space, covering) {
     for (const std::uint32_t facet : covering.facet_of)
       if (facet != kNone) ++size_of_[facet];
   }
 
   std::size_t run() {
     for (std::size_t left = 8 * rank_; left > 0; --left) {
-      const std::optional<std::vector<double>> way_out = find_way_out(planes_, rank_);
+      const std::optional<std::vector<double>> way_out = planes_.find_way_out();
       if (!way_out || !close(*way_out)) break;
     }
     return taken_;
@@ -111,7 +137,7 @@ class RegionCloser {
     std::vector<double> normal(rank_);
     const auto plane = complex_.plane(SimplexId{row});
     space_.normal_of(plane, normal.data());
-    planes_.insert(planes_.end(), plane.begin(), plane.end());
+    planes_.add(plane);
     covering_.planes.push_back({normal, 0.0, 0.0});
     ++taken_;
     return true;
@@ -136,7 +162,7 @@ class RegionCloser {
     std::ranges::copy_if(vertices, std::back_inserter(missing), is_missing);
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    planes_.insert(planes_.end(), facet->duals.begin(), facet->duals.end());
+    planes_.add(facet->duals);
     return true;
   }
 
@@ -175,7 +201,7 @@ class RegionCloser {
   Covering& covering_;
   std::size_t rank_;
   std::vector<std::uint32_t> size_of_;
-  std::vector<double> planes_;  // in the frame
+  RegionPlanes planes_;
   std::vector<std::uint8_t> is_wanted_;
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
@@ -185,8 +211,7 @@ class RegionCloser {
 }  // namespace
 
 bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering) {
-  return covering.planes.size() > kSurelyBounded ||
-         !find_way_out(planes_of(complex, space, covering), space.rank());
+  return covering.planes.size() > kSurelyBounded || !RegionPlanes(complex, space, covering).find_way_out();
 }
 
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,

@@ -17,7 +17,7 @@ inline constexpr std::size_t kSurelyBounded = 1000;
 
 /// Do the facets' planes bound a region that is not a thousand times the hull? Of more
 /// than kSurelyBounded facets: yes.
-/// Cost  find_way_out.
+/// Cost  find_open_direction (approx/geometry/boundedness.h), then find_far_reach.
 bool bounds_region(const SimplicialComplex& complex, const WidthSpace& space, const Covering& covering);
 
 /// Facets of the hull of all points of a WidthSpace, which growth may have left out points of. They are
@@ -40,8 +40,8 @@ struct HullFacets {
 /// Shapes    coordinates: points x rank, in the frame.
 /// Not promised  that a direction is closed where points share planes: the facet found there may be divided
 ///           into other simplices, and the one that faces it most is taken, however far points are above it.
-/// Cost      find_way_out for each, and a product for each simplex; for each facet looked for a linear program with a column for each point, and a
-///           look at each simplex.
+/// Cost      of bounds_region for each, and a product for each simplex; for each facet looked for a linear
+///           program with a column for each point, and a look at each simplex.
 std::size_t close_open_directions(const SimplicialComplex& complex, const WidthSpace& space,
                                   const double* coordinates, HullFacets* known, Covering& covering);
 

@@ -2,7 +2,6 @@
 // says which points are to be taken in.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "approx/trade/approximation.h"
 #include "core/ids.h"

@@ -7,7 +7,6 @@
 // facet's own plane are counted first, and sampled at a stride when there are too many.
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "approx/verify/verify_facets.h"

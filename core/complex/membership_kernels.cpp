@@ -9,9 +9,6 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "core/dimension_switch.h"
 #include "core/linear/block_elimination-inl.h"
 #include "core/machine/blocks.h"

@@ -1,6 +1,5 @@
 // The growth loops, compiled once for each instruction set and each dimension; the best set that the
 // machine has is chosen at run time (Highway).
-#include <cmath>
 #include <memory>
 #include <utility>
 

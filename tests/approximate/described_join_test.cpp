@@ -1,9 +1,6 @@
 // Targets for hulls of few large facets: found whole, and joined where a width lets them.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <string>
-
 #include "core/portable_random.h"
 #include "tests/approximate/approximate_laws.h"
 #include "tests/support/degeneracies.h"

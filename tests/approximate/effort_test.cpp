@@ -2,7 +2,6 @@
 // laws.
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>

@@ -10,7 +10,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "approx/facets/exact_facets.h"

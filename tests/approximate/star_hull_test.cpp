@@ -1,6 +1,5 @@
 // Hulls without their complex, which memory limits bring about here, beside the laws of all approximate
 // hulls.
-#include <cmath>
 #include <cstring>
 
 #include "core/complex/complex_check.h"

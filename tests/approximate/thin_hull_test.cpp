@@ -112,5 +112,50 @@ TEST(RegionLaw, CrossPolytopesAreClosedByMoreThanRounding) {
   }
 }
 
+// So may those of corners of a cube be balanced by the tilt alone that fits gave them, and those of a few
+// simplices that a limit left.
+TEST(RegionLaw, CornersOfCubesAreClosedByMoreThanTilts) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::size_t d = 4 + seed % 3;
+    const PointSet set = family_points(PointFamily::kCubeCorners, 40 + seed % 30, d, seed);
+    std::vector<HullOptions> tried(4);
+    tried[0].accuracy.width = {70.0 + static_cast<double>(seed), true};
+    tried[1].accuracy.width = {106.0 + static_cast<double>(seed % 20), true};
+    tried[1].accuracy.outside_width = {116.0 + static_cast<double>(seed % 20), true};
+    tried[2].accuracy.width = {5.0, true};
+    tried[2].limits.max_facets = 1 + seed % 29;
+    tried[3].accuracy.facets = d + 1 + seed % 5;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", option " + std::to_string(i));
+      const Hull hull = hull_of(set, tried[i]);
+      const OuterVolume outer = outer_volume(hull, {});
+      ASSERT_TRUE(outer.volume.has_value()) << outer.reason;
+      EXPECT_LT(*outer.volume, 1e9 * hull.volume);
+    }
+  }
+}
+
+// A facet of one simplex is one of the simplicial ones, whatever found it.
+TEST(RegionLaw, FacetsOfOneSimplexAreSimplicialUnderAWidth) {
+  const PointSet set = family_points(PointFamily::kSphere, 60, 5, 3);
+  for (const double percent : {2.0, 5.0, 20.0}) {
+    for (const bool counts : {false, true}) {
+      HullOptions options;
+      options.accuracy.width = {percent, true};
+      Hull hull = hull_of(set, options);
+      if (counts) {
+        options.accuracy.facets = hull.facet_count();
+        options.accuracy.width = {};
+        hull = hull_of(set, options);
+      }
+      SCOPED_TRACE(percent);
+      std::size_t alone = 0;
+      for (std::uint32_t facet = 0; facet < hull.facet_count(); ++facet)
+        if (hull.simplex_count_of(FacetId{facet}) == 1) ++alone;
+      EXPECT_EQ(hull.simplicial_facet_count(), alone);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ndhull

@@ -1,9 +1,6 @@
 // Growth of the whole hull goes on from the one that points were dropped with.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "approx/hull_builder.h"
 #include "approx/reduction/point_reduction.h"
 #include "approx/reduction/reduced_points.h"

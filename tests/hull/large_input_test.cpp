@@ -1,6 +1,5 @@
 // Inputs and hulls that are large enough for the loops that threads share, and for points to be dropped
 // early.
-#include <algorithm>
 #include <vector>
 
 #include "core/complex/complex_check.h"

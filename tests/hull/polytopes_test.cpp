@@ -1,6 +1,5 @@
 // Polytopes whose facets, vertices and volume are known: by a formula or from the literature.
 #include <cmath>
-#include <functional>
 
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "approx/reduction/direction_extremes_kernel.h"

@@ -1,7 +1,6 @@
 // Hull, intersection of its planes, hull again: nothing is lost, and exact planes give the points back.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "approx/geometry/boundedness.h"
 #include "core/error.h"

@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"

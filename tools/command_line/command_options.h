@@ -28,9 +28,6 @@ CLI::Validator path_name();
 /// Not empty, as what a shell makes of a variable that is not set.
 CLI::Validator some_text();
 
-/// Threads that --threads takes: more than any machine has, fewer than would exhaust one.
-inline constexpr std::uint64_t kMostThreads = 1024;
-
 /// Adds an option that takes the names, as to_string has them, of some values of an enumeration.
 template <class Enum>
 CLI::Option* add_word_option(CLI::App& command, const std::string& name, Enum& chosen,

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "approx/report.h"
@@ -17,8 +16,6 @@
 
 namespace ndhull {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void write_rows(OutputFile& file, const IdRows& rows, bool with_count) {
   file.print("{}\n", rows.begin.size() - 1);
@@ -307,7 +304,7 @@ std::string intersection_report(const HalfspaceIntersection& intersection,
                        {"total", context.total_seconds}};
   report["peak_memory_bytes"] = peak_memory_bytes();
   if (context.vertex_list) report["vertex_list"] = vertices_of(intersection);
-  return report.dump(2) + "\n";
+  return report_text(report) + '\n';
 }
 
 }  // namespace ndhull

@@ -1,6 +1,5 @@
 #include "tools/io/plane_writer.h"
 
-#include <string_view>
 #include <vector>
 
 #include "tools/io/file_bytes.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -19,6 +20,8 @@ using FillRow = std::function<void(std::size_t index, std::span<double> row)>;
 constexpr std::size_t kBlockCoordinates = std::size_t{1} << 17;  // 1 MiB of doubles
 constexpr std::size_t kMostRowsOfProduct = std::size_t{1}
                                            << 40;  // 2^d and side^d beyond that are typing errors
+
+constexpr std::size_t kMostCentreCoordinates = std::size_t{1} << 27;  // of clusters: 1 GiB
 
 struct NamedFamily {
   PointFamily family;
@@ -47,9 +50,8 @@ constexpr std::array kFamilies = {
 
 std::size_t power(std::size_t base, std::size_t exponent, const char* what) {
   std::size_t value = 1;
-  for (std::size_t k = 0; k < exponent; ++k) {
-    value *= base;
-    if (value > kMostRowsOfProduct) {
+  for (std::size_t k = 0; k < exponent; ++k, value *= base) {
+    if (value > kMostRowsOfProduct / base) {
       throw Error(ErrorCode::kTooManyPoints,
                   std::string("generate: ") + what + " has more than 2^40 points; lower -d");
     }
@@ -91,6 +93,11 @@ void check_parameters(const GenerateOptions& o) {
   }
   if (o.family == PointFamily::kClusters) {
     if (o.cluster_count == 0) refuse_request("clusters needs one cluster or more");
+    if (o.cluster_count > kMostCentreCoordinates / o.dimension) {
+      refuse_request("found " + std::to_string(o.cluster_count) + " clusters in " +
+                     std::to_string(o.dimension) + "-d, expected at most " +
+                     std::to_string(kMostCentreCoordinates / o.dimension) + "; ask for fewer");
+    }
     if (!(std::isfinite(o.spread) && o.spread >= 0.0))
       refuse_request("the spread of clusters must be 0 or more");
   }
@@ -179,7 +186,9 @@ void fill_lens(PortableRandom& random, double radius, std::span<double> row) {
   fill_ball(random, disk);
   double norm_sq = 0.0;
   for (const double value : disk) norm_sq += value * value;
-  const double height = std::sqrt(radius * radius - norm_sq) - std::sqrt(radius * radius - 1.0);
+  // The difference of both roots, without cancellation; squares of a radius may be no doubles.
+  const double rest = (1.0 - norm_sq) / radius, least = 1.0 / radius;
+  const double height = rest / (std::sqrt(1.0 - norm_sq * least * least) + std::sqrt(1.0 - least * least));
   row.back() = random.coin() ? height : -height;
 }
 
@@ -331,6 +340,46 @@ void generate(const GenerateOptions& options, const std::function<void(const Poi
   }
 }
 
+std::string generate_command(const GenerateOptions& options) {
+  std::string command = "ndhull generate " + std::string(to_string(options.family)) + " -d " +
+                        std::to_string(options.dimension);
+  const auto add = [&command](const char* option, const std::string& value) {
+    command += std::string(" ") + option + " " + value;
+  };
+  // As short as reads back as the same double.
+  const auto digits = [](double value) {
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+  };
+  const GenerateOptions plain;
+  if (options.count > 0) add("-n", std::to_string(options.count));
+  add("--seed", std::to_string(options.seed));
+  if (options.scalar == ScalarType::kFloat32) command += " --float32";
+  switch (options.family) {
+    case PointFamily::kCyclic:
+      if (options.curve != plain.curve)
+        add("--curve", options.curve == CyclicCurve::kMoment ? "moment" : "trigonometric");
+      break;
+    case PointFamily::kLattice:
+      if (options.side != plain.side) add("--side", std::to_string(options.side));
+      break;
+    case PointFamily::kLens:
+      if (options.lens_radius != plain.lens_radius) add("--lens-radius", digits(options.lens_radius));
+      break;
+    case PointFamily::kEllipsoid:
+      if (!options.axes.empty()) command += " --axes";
+      for (const double axis : options.axes) command += " " + digits(axis);
+      break;
+    case PointFamily::kClusters:
+      if (options.cluster_count != plain.cluster_count)
+        add("--clusters", std::to_string(options.cluster_count));
+      if (options.spread != plain.spread) add("--spread", digits(options.spread));
+      break;
+    default: break;
+  }
+  return command;
+}
+
 PointSet generate_points(const GenerateOptions& options) {
   PointSet set;
   set.dimension = options.dimension;
@@ -341,9 +390,7 @@ PointSet generate_points(const GenerateOptions& options) {
       for (std::size_t k = 0; k < block.dimension; ++k) set.coordinates.push_back(block.at(row, k));
     }
   });
-  set.header = "ndhull generate " + std::string(to_string(options.family)) + " -d " +
-               std::to_string(options.dimension) + " -n " + std::to_string(rows) + " --seed " +
-               std::to_string(options.seed);
+  set.header = generate_command(options);
   return set;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -76,7 +77,10 @@ std::size_t row_count(const GenerateOptions& options);
 ///           probabilistic approach to the geometry of the l_p^n-ball. Ann. Probab. 33(2), 2005.
 void generate(const GenerateOptions& options, const std::function<void(const PointView&)>& take_block);
 
-/// All rows at once, as doubles (with float32: rounded to float). `header` names family and parameters.
+/// The command that makes the same points, without an output.
+std::string generate_command(const GenerateOptions& options);
+
+/// All rows at once, as doubles (with float32: rounded to float). `header` is the command.
 PointSet generate_points(const GenerateOptions& options);
 
 }  // namespace ndhull

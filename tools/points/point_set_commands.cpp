@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <vector>
 
 #include "core/error.h"
 #include "tools/command_line/command_options.h"
@@ -79,12 +78,10 @@ void check_parameters_are_of(const CLI::App& command, PointFamily family) {
 }  // namespace
 
 void write_generated(const std::string& path, const GenerateOptions& options) {
-  const PointFileHead head{
-      .rows = row_count(options),
-      .dimension = options.dimension,
-      .scalar = options.scalar,
-      .comment = fmt::format("ndhull generate {} -d {} -n {} --seed {}", to_string(options.family),
-                             options.dimension, row_count(options), options.seed)};
+  const PointFileHead head{.rows = row_count(options),
+                           .dimension = options.dimension,
+                           .scalar = options.scalar,
+                           .comment = generate_command(options)};
   PointWriter writer(path, head);
   generate(options, [&writer](const PointView& block) { writer.write(block); });
   writer.commit();

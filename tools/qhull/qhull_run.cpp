@@ -2,7 +2,6 @@
 #include "tools/qhull/qhull_run.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cctype>
@@ -12,6 +11,7 @@
 #include "approx/joggle.h"
 #include "approx/verify/verify.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
@@ -162,7 +162,7 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
 
   if (command.verify) {
     // Joggled planes are widened: they hold for the points as they were.
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    tbb::task_arena arena = arena_of(threads);
     const Verification verification =
         arena.execute([&] { return verify_hull(points, result.hull, VerifyMode::kFloating); });
     if (!verification.passed()) {

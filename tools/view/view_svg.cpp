@@ -136,9 +136,9 @@ class Legend {
 
 std::string escaped(const std::string& text) {
   // The JSON library replaces what is no UTF-8.
-  using Json = nlohmann::json;
+  using Value = nlohmann::json;
   const auto sound =
-      Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+      Value::parse(Value(text).dump(-1, ' ', false, Value::error_handler_t::replace)).get<std::string>();
   std::string result;
   for (const char letter : sound) {
     switch (letter) {

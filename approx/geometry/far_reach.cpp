@@ -1,9 +1,8 @@
-#include "approx/geometry/way_out.h"
+#include "approx/geometry/far_reach.h"
 
 #include <cmath>
 #include <numeric>
 
-#include "approx/geometry/boundedness.h"
 #include "core/linear/column_simplex.h"
 #include "core/linear/column_table.h"
 
@@ -22,11 +21,9 @@ std::vector<double> unit_of(std::span<const double> vector) {
 
 }  // namespace
 
-std::optional<std::vector<double>> find_way_out(std::span<const double> planes, std::size_t rank) {
+std::optional<std::vector<double>> find_far_reach(std::span<const double> planes, std::size_t rank) {
   constexpr double kFar = 1e3;
   constexpr double kSteps = 0x1p30;  // what differs by rounding alone is equal then: the programs would stall
-  const Boundedness found = find_open_direction(planes, rank);
-  if (!found.bounded) return found.direction;
   ColumnTable normals(rank, planes.size() / rank);
   for (std::size_t plane = 0; plane < normals.count(); ++plane) {
     const std::span<const double> dual = planes.subspan(plane * rank, rank);
@@ -34,7 +31,7 @@ std::optional<std::vector<double>> find_way_out(std::span<const double> planes, 
     for (double& entry : normal) entry = std::nearbyint(entry * kSteps) / kSteps;
     normals.set(plane, normal, 1.0 / norm_of(dual));
   }
-  // How far the region reaches along an axis is the least sum of weighted distances with which normals add up to it.
+  // Weights with which normals add up to an axis: the least sum of weighted distances is the region's reach.
   std::optional<std::vector<double>> furthest;
   double most = kFar;
   for (std::size_t side = 0; side < 2 * rank; ++side) {
