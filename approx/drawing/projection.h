@@ -28,7 +28,6 @@ class Projection {
   OnPage project(const Point3& point) const;
   /// Is the face through `point` with this outward normal seen from outside?
   bool is_facing(const Point3& point, const Point3& normal) const;
-  const Point3& eye() const { return eye_; }
 
  private:
   std::array<double, 16> page_from_drawing_;  // column-major, homogeneous

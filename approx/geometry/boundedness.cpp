@@ -30,11 +30,11 @@ RowMatrix unit_rows(const Eigen::Ref<const RowMatrix>& normals, const MatrixXd& 
   return rows;
 }
 
-ColumnTable table_of(const RowMatrix& rows, double cost) {
+ColumnTable table_of(const RowMatrix& rows) {
   const auto height = static_cast<std::size_t>(rows.cols());
   ColumnTable table(height, static_cast<std::size_t>(rows.rows()));
   for (Index row = 0; row < rows.rows(); ++row) {
-    table.set(static_cast<std::size_t>(row), {rows.data() + row * rows.cols(), height}, cost);
+    table.set(static_cast<std::size_t>(row), {rows.data() + row * rows.cols(), height}, 1.0);
   }
   return table;
 }
@@ -55,7 +55,7 @@ RowMatrix every(Index step, const Eigen::Ref<const RowMatrix>& rows) {
 std::optional<VectorXd> open_among(const RowMatrix& rows) {
   const Index rank = rows.cols();
   if (rows.rows() == 0) return VectorXd(VectorXd::Unit(rank, 0));
-  ColumnTable table = table_of(rows, 1.0);
+  ColumnTable table = table_of(rows);
   // -(1, .., 1) and the unit vectors span the space positively.
   for (Index k = 0; k <= rank; ++k) {
     const VectorXd direction =
@@ -82,7 +82,7 @@ std::optional<VectorXd> open_direction(const RowMatrix& rows, Index count) {
 class NormalTable {
  public:
   /// Cost 1 each.
-  explicit NormalTable(const RowMatrix& rows) : table_(table_of(rows, 1.0)) {}
+  explicit NormalTable(const RowMatrix& rows) : table_(table_of(rows)) {}
   /// Unit rows that `map` makes of the normals.
   NormalTable(const Eigen::Map<const RowMatrix>& normals, const MatrixXd& directions, const MatrixXd& map)
       : table_(static_cast<std::size_t>(map.cols()), static_cast<std::size_t>(normals.rows())) {

@@ -70,7 +70,6 @@ double lowest_dot(const WidthSpace& space, std::span<const double> normal,
 
 FittedPlane measure_plane(const WidthSpace& space, std::span<const double> normal,
                           std::span<const std::uint32_t> vertices, PlaneFitWork& work) {
-  ++work.evaluations;
   FittedPlane plane{{normal.begin(), normal.end()}, -HUGE_VAL, HUGE_VAL};
   if (space.is_large()) {
     for (const std::uint32_t vertex : vertices) {

@@ -28,9 +28,8 @@ struct PlaneFitWork {
   std::vector<std::uint32_t> near;  ///< rows that a turned plane may meet first, beside the facet's vertices
   std::vector<std::uint32_t> pass_of_row;  ///< rows marked in this pass are vertices of the facet
   std::uint32_t pass = 0;
-  TurningPoints points;           ///< those of the last fit
-  std::vector<double> best;       ///< the direction that it found
-  std::uint64_t evaluations = 0;  ///< products of one direction with all points, ever
+  TurningPoints points;      ///< those of the last fit
+  std::vector<double> best;  ///< the direction that it found
 };
 
 /// Height and low of `normal` for a facet with these vertices (rows of `space`).

@@ -43,11 +43,11 @@ class SeedPlanes {
   SeedPlane<D> own(std::uint32_t seed) const {
     std::array<double, D> plane;
     std::copy_n(complex_.planes.data() + std::size_t{seed} * D, D, plane.data());
-    return below(plane, 1.0);
+    return below(plane);
   }
-  SeedPlane<D> below(const std::array<double, D>& plane, double top) const {
+  SeedPlane<D> below(const std::array<double, D>& plane) const {
     const double length = length_of_(plane.data());
-    return {plane, top, length, top - width_ * length};
+    return {plane, 1.0, length, 1.0 - width_ * length};
   }
 
   bool may_have_points_above() const { return above_ != PointsAbove::kNoPoint; }
@@ -114,7 +114,7 @@ class SeedPlanes {
     if (turned_.width() > width_) return false;
     std::array<double, D> plane;
     space_.plane_of(turned_.normal.data(), turned_.height, plane.data());
-    own = below(plane, 1.0);
+    own = below(plane);
     own.is_fitted = true;
     return true;
   }

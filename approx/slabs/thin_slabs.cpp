@@ -286,7 +286,7 @@ class ThinPartitioner {
     std::array<double, D> mean;
     for (std::size_t i = 0; i < D; ++i)
       mean[i] = (first * plane_of(row)[i] + last * plane_of(other)[i]) / sum;
-    SeedPlane<D> plane = planes_.below(mean, 1.0);
+    SeedPlane<D> plane = planes_.below(mean);
     if (planes_.may_have_points_above()) planes_.raise_top(plane);
     const double lowest =
         std::min({1.0, dot(mean.data(), row_of(row)[k]), dot(mean.data(), vertex_across(row, k))});

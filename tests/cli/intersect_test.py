@@ -4,6 +4,7 @@
 import itertools
 import json
 import math
+import os
 import shutil
 import signal
 import subprocess
@@ -311,6 +312,15 @@ def test_equations_and_rows_without_normals_of_cdd():
         one_error_line(run("verify", folder / "one.npy", path, exit_code=1), "bad-halfspace")
     path.write_text("begin\n1 3 integer\n1 0 0\nend\n")
     assert json.loads(run("intersect", path, "--report", "-").stdout)["status"] == "unbounded"
+
+
+def test_a_report_of_a_file_whose_name_is_no_text():
+    folder = fresh_folder("no_text")
+    path = os.fsencode(folder) + b"/bad\xff.txt"
+    with open(path, "wb") as file:
+        file.write(b"1 -1\n-1 -1\n")
+    done = subprocess.run([PROGRAM, "intersect", path, "--report", "-"], capture_output=True, check=True, timeout=PATIENCE)
+    assert json.loads(done.stdout)["status"] == "bounded"
 
 
 run_tests(globals())

@@ -221,7 +221,8 @@ std::string describe_without_vertices(const HalfspaceIntersection& intersection)
     std::string names;
     for (const HalfspaceWeight& term : intersection.proof)
       names += fmt::format("{}{}", names.empty() ? "" : ", ", term.halfspace);
-    return fmt::format("empty: halfspaces {} miss each other by {:.6g}", names, intersection.proof_gap);
+    return fmt::format("empty: every point is {:.6g} or more outside one of the halfspaces {}",
+                       intersection.proof_gap, names);
   }
   return fmt::format("unbounded along ({:.6g})", fmt::join(intersection.direction, ", "));
 }
