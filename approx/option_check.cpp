@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -66,7 +67,9 @@ class OptionCheck {
   }
 
   [[noreturn]] void refuse_number(std::string_view field, double found, const std::string& range) const {
-    refuse(name(field) + " " + std::to_string(found), "expected a number from " + range);
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.9g", found);
+    refuse(name(field) + " " + digits, "expected a number from " + range);
   }
 
   const HullOptions& options_;

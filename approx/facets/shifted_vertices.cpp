@@ -28,7 +28,9 @@ class ShiftedVertices {
   }
 
   std::vector<bool> run() {
-    std::vector<std::uint32_t> doubtful = places_not_furthest();
+    const std::vector<std::uint32_t> doubtful = places_not_furthest();
+    stand_in_ = first_not_in(doubtful);
+    if (doubtful.empty() || stand_in_ == ids_.size()) return is_vertex_;
     std::vector<std::uint8_t> is_inside(doubtful.size());
     for_each_block(doubtful.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
       ColumnTable others = table();
@@ -80,6 +82,13 @@ class ShiftedVertices {
     return places;
   }
 
+  /// The first place that is not in this list, which is ascending; the number of places where all are.
+  std::size_t first_not_in(const std::vector<std::uint32_t>& places) const {
+    std::size_t place = 0;
+    while (place < places.size() && places[place] == place) ++place;
+    return place;
+  }
+
   /// Unit, or 0 where they cancel.
   std::vector<double> mean_normals() const {
     std::vector<std::uint32_t> place_of(work_.point_count);
@@ -120,17 +129,16 @@ class ShiftedVertices {
     columns.set(column, entries, 0.0);
   }
 
-  /// Leaves another one in its column.
+  /// Leaves a point that stays in its column.
   bool is_in_hull_of_others(std::uint32_t place, ColumnTable& others) const {
-    std::vector<double> entries(rank_ + 1);
-    const std::uint32_t other = place == 0 ? 1 : 0;
-    for (std::size_t k = 0; k <= rank_; ++k) entries[k] = others.entry(other, k);
-    others.set(place, entries, 0.0);
+    constexpr std::uint64_t kPatience = 250;  // pivots; then tolerances are no longer what they were
+    put(place, static_cast<std::uint32_t>(stand_in_), others);
     std::vector<double> target(row(place), row(place) + rank_);
     target.push_back(1.0);
     ColumnSimplex lp(target);
     const LpResult result = solve_lp(lp, [&](const LpQuery& query) { return others.price(query); });
-    return result.status == LpStatus::kOptimal && result.infeasibility <= kClear * scale();
+    return result.status == LpStatus::kOptimal && result.pivots < kPatience &&
+           result.infeasibility <= kClear * scale();
   }
 
   const GrowthWork& work_;
@@ -138,6 +146,7 @@ class ShiftedVertices {
   std::vector<bool> is_vertex_;
   std::vector<std::uint32_t> ids_;  // of the corners, ascending
   std::vector<double> rows_;        // their coordinates
+  std::size_t stand_in_ = 0;        // the place of a corner that is a vertex for certain
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace ndhull {
 
-/// Which points are vertices: the corners of the complex but those that lie, to 1e-11, in the hull of the
-/// others. A point that was shifted may be a corner though it lies on an edge or a face. Of several such
+/// Which points are vertices: the corners of the complex but those that lie in the hull of the others, to
+/// some 1e-11. A point that was shifted may be a corner though it lies on an edge or a face. Of several such
 /// corners one is left out after the other, while it is in the hull of those that are left.
 ///
 /// Cost  a product of each pair of corners, in single precision; for each that is not the furthest along the

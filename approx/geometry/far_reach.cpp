@@ -40,8 +40,9 @@ std::optional<std::vector<double>> find_far_reach(std::span<const double> planes
     ColumnSimplex lp(axis);
     const LpResult reach = solve_lp(lp, [&](const LpQuery& query) { return normals.price(query); });
     if (reach.status == LpStatus::kInfeasible) return unit_of(reach.duals);
-    if (reach.infeasibility > 0.0) return axis;  // stalled: rounding is all that closes it
-    if (reach.status != LpStatus::kOptimal || reach.objective <= most) continue;
+    const bool has_stalled = reach.status == LpStatus::kStalled;
+    if (has_stalled && reach.infeasibility > 0.0) return axis;  // rounding is all that closes it
+    if (reach.objective <= most) continue;
     most = reach.objective;
     furthest = unit_of(reach.duals);
   }

@@ -1,4 +1,5 @@
 // Vertices of approximate hulls of points that share planes: none lies in the hull of the others.
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
@@ -48,6 +49,24 @@ TEST(ShiftedVerticesLaw, NoVertexIsInTheHullOfTheOthers) {
     }
   }
   EXPECT_GT(shifted, 100U);
+}
+
+// Each of the first two is in the hull of the rest only thanks to the other: one of them stays.
+TEST(ShiftedVerticesExample, OfTwoNearCopiesOneStays) {
+  PointSet set{3,
+               {5.999999999934478, 1.1896997265179238e-11, 0.9999999999742214, 5.999999999956388,
+                7.465569413517033e-11, 0.9999999999265684},
+               ""};
+  for (int x = -6; x <= 6; ++x)
+    for (int y = -6; y <= 6; ++y)
+      for (int z = -6; z <= 6; ++z)
+        if (x * x + y * y + z * z <= 37 && !(x == 6 && y == 0 && z == 1))
+          for (const int coordinate : {x, y, z}) set.coordinates.push_back(coordinate);
+  Accuracy accuracy;
+  accuracy.max_cosine = 0.99;
+  const Hull hull = hull_of(set, {.accuracy = accuracy});
+  EXPECT_EQ(hull.vertices.size(), 96U);
+  EXPECT_EQ(std::ranges::count_if(hull.vertices, [](PointId id) { return id.value < 2; }), 1);
 }
 
 }  // namespace

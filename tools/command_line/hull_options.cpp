@@ -69,7 +69,7 @@ void HullOptionSet::add_accuracy_to(CLI::App& command) {
       ->type_name("HOW")
       ->check(one_of({"quick", "thorough"}));
   add_length("--outside-width", outside_width_,
-             "leave out points that are less than this outside (Qhull's Wn)");
+             "leave out points that are less than this outside (Qhull's Wn), to a twentieth of it");
   add_length("--centrum-radius", centrum_radius_,
              "merge facets while a centrum is less than this below its neighbour's plane (Cn)");
   command

@@ -12,10 +12,12 @@ void add_selection_options(CLI::App& command, SelectionOptions& selection) {
       command.add_option("--largest", selection.largest, "select the N facets of largest area")
           ->type_name("N")
           ->check(whole_number(1));
-  add_word_option(command, "--select", selection.measure,
-                  {SelectionMeasure::kArea, SelectionMeasure::kVolume, SelectionMeasure::kDistance},
-                  "what --largest means: area (default); volume: the N facets whose outer planes together "
-                  "enclose little; distance: those whose outer planes meet nowhere far from the hull")
+  add_word_option(
+      command, "--select", selection.measure,
+      {SelectionMeasure::kArea, SelectionMeasure::kVolume, SelectionMeasure::kDistance},
+      "what --largest means: area (default); volume: the N facets whose outer planes together "
+      "enclose little; distance: those whose outer planes meet nowhere far from the hull; both take N "
+      "above the rank, since fewer bound no region")
       ->type_name("MEASURE")
       ->needs(largest);
   command.add_option("--min-area", selection.min_area, "select the facets of at least area A")
