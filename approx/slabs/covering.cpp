@@ -42,14 +42,6 @@ double low_of(const SimplicialComplex& complex, const WidthSpace& space, std::ui
   return low;
 }
 
-/// Of a simplex that is a facet alone.
-FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row) {
-  FittedPlane plane;
-  plane.normal.resize(space.rank());
-  space.normal_of(complex.plane(SimplexId{row}), plane.normal.data());
-  return plane;
-}
-
 }  // namespace
 
 FacetMembers::FacetMembers(const Covering& covering) : begin_(covering.planes.size() + 1, 0) {
@@ -81,6 +73,13 @@ std::span<const std::uint32_t> FacetVertices::list(const SimplicialComplex& comp
   return rows_;
 }
 
+FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row) {
+  FittedPlane plane;
+  plane.normal.resize(space.rank());
+  space.normal_of(complex.plane(SimplexId{row}), plane.normal.data());
+  return plane;
+}
+
 Covering cover_by_simplices(const SimplicialComplex& complex, const WidthSpace& space) {
   Covering covering;
   covering.facet_of.assign(complex.row_count, kNone);
@@ -98,7 +97,7 @@ void free_lone_simplices(const SimplicialComplex& complex, const WidthSpace& spa
   PlaneFitWork work;
   for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
     FittedPlane& plane = covering.planes[facet];
-    if (members.of(facet).size() != 1 || plane.height == 0.0) continue;
+    if (members.of(facet).size() != 1 || !is_measured(plane)) continue;
     const std::uint32_t row = members.of(facet)[0];
     FittedPlane own = own_plane(complex, space, row);
     const std::uint32_t vertex = space.row_of(complex.vertices(SimplexId{row})[0]);
@@ -115,7 +114,7 @@ FacetClusters clusters_of(const Covering& covering, const WidthSpace& space) {
   std::vector<std::uint32_t> cluster(covering.planes.size(), kNone);
   for (std::uint32_t facet = 0; facet < covering.planes.size(); ++facet) {
     const FittedPlane& plane = covering.planes[facet];
-    if (plane.height == 0.0) continue;
+    if (!is_measured(plane)) continue;
     cluster[facet] = clusters.count++;
     clusters.planes.resize(clusters.count * rank);
     space.plane_of(plane.normal.data(), plane.height, clusters.planes.data() + cluster[facet] * rank);

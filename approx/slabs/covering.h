@@ -50,6 +50,9 @@ class FacetVertices {
   std::uint32_t pass_ = 0;
 };
 
+/// Of a simplex that stays alone, as Covering::planes has it.
+FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row);
+
 /// Every simplex a facet of its own, with its own plane.
 Covering cover_by_simplices(const SimplicialComplex& complex, const WidthSpace& space);
 

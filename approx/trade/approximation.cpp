@@ -98,11 +98,11 @@ FacetClusters Approximation::run_merging() {
   hull_.chosen.width_cap = cap;
   hull_.chosen.merges = counts.merges;
   hull_.chosen.refused_merges = counts.refused;
-  return facets_of(std::move(covering));
+  return facets_of(covering);
 }
 
 /// A covering that is not changed any more.
-FacetClusters Approximation::facets_of(Covering covering) const {
+FacetClusters Approximation::facets_of(const Covering& covering) const {
   Covering freed = covering;
   free_lone_simplices(growth_.work().complex, *space_, is_convex(), freed);
   return clusters_of(keeps_hull(freed) ? freed : covering, *space_);
@@ -372,7 +372,7 @@ FacetClusters Approximation::run_width() {
       slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }
   hull_.chosen.outside_width = outside_width;
-  return facets_of(std::move(covering));
+  return facets_of(covering);
 }
 
 }  // namespace ndhull

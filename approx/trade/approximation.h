@@ -147,7 +147,7 @@ class Approximation {
   bool may_be_few_exact_facets();
   bool is_degenerate() const { return shares_planes(growth_.work(), growth_.coordinates()); }
   bool keeps_hull(const Covering& covering) const;
-  FacetClusters facets_of(Covering covering) const;
+  FacetClusters facets_of(const Covering& covering) const;
   TrueWidths true_widths(const Covering& covering);
   const PointTree& left_out_tree();
   /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets

@@ -394,7 +394,7 @@ FacetClusters Approximation::run_count() {
   take_in_widening(count, outside_width, search);
   if (is_thorough()) look_for_narrower(count, search);
   hull_.chosen.slab_width = search.slab;
-  return facets_of(std::move(search.narrowest));
+  return facets_of(search.narrowest);
 }
 
 }  // namespace ndhull

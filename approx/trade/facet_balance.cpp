@@ -236,10 +236,8 @@ void FacetBalance::split_widest(std::size_t count) {
     if (count == 0 || !is_measured(covering_.planes[facet])) break;
     if (members.size() < 2) continue;
     const std::uint32_t deepest = deepest_of(members, covering_.planes[facet]);
-    FittedPlane plane{std::vector<double>(complex_.rank), 0.0, 0.0};
-    space_.normal_of(complex_.plane(SimplexId{deepest}), plane.normal.data());
     covering_.facet_of[deepest] = static_cast<std::uint32_t>(covering_.planes.size());
-    covering_.planes.push_back(std::move(plane));
+    covering_.planes.push_back(own_plane(complex_, space_, deepest));
     is_changed_[facet] = 1;
     --count;
   }

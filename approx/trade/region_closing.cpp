@@ -26,12 +26,12 @@ class RegionPlanes {
     for (std::size_t facet = 0; facet < covering.planes.size(); ++facet) {
       const FittedPlane& plane = covering.planes[facet];
       normals_.insert(normals_.end(), plane.normal.begin(), plane.normal.end());
-      if (plane.height > 0.0) space.plane_of(plane.normal.data(), plane.height, duals_.data() + facet * rank);
+      if (is_measured(plane)) space.plane_of(plane.normal.data(), plane.height, duals_.data() + facet * rank);
     }
     // Simplices that stayed alone have their own.
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       const std::uint32_t facet = covering.facet_of[row];
-      if (facet != kNone && !(covering.planes[facet].height > 0.0))
+      if (facet != kNone && !is_measured(covering.planes[facet]))
         std::ranges::copy(complex.plane(SimplexId{row}), duals_.data() + facet * rank);
     }
   }
@@ -134,11 +134,8 @@ class RegionCloser {
     --size_of_[covering_.facet_of[row]];
     covering_.facet_of[row] = static_cast<std::uint32_t>(covering_.planes.size());
     size_of_.push_back(1);
-    std::vector<double> normal(rank_);
-    const auto plane = complex_.plane(SimplexId{row});
-    space_.normal_of(plane, normal.data());
-    planes_.add(plane);
-    covering_.planes.push_back({normal, 0.0, 0.0});
+    planes_.add(complex_.plane(SimplexId{row}));
+    covering_.planes.push_back(own_plane(complex_, space_, row));
     ++taken_;
     return true;
   }
