@@ -342,7 +342,7 @@ class Partitioner {
       facets_.marks.set_taken(seed, true);
     }
     add_facet(begin, own);
-    facets_.all_fit = facets_.all_fit && fits;
+    facets_.unfit += fits ? 0u : 1u;
     return true;
   }
 

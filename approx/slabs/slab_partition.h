@@ -34,7 +34,7 @@ struct FacetLimit {
 /// Shapes  coordinates: points x rank, in the frame. gradient_factor: rank x rank. find_determinants: asked
 ///         for once, unless nothing is returned. None: no stars are looked for; so where a point was shifted.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
-///           it, no plane may be found (all_fit tells).
+///           it, no plane may be found (unfit tells).
 /// Cost      each simplex is met in one slab, with its neighbours; those that are tried as seeds and left for
 ///           later have their neighbours looked at for each time; in up to three passes where planes are
 ///           turned, with a fit for each. Where the hull is not convex, a product of a direction with all

@@ -302,7 +302,7 @@ class ThinPartitioner {
         continue;
       }
       SeedPlane<D> own = planes_.own(row);
-      facets_.all_fit = planes_.raise_above_points(row, own) && facets_.all_fit;
+      facets_.unfit += planes_.raise_above_points(row, own) ? 0u : 1u;
       facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
       add_facet(row, own.is_fitted ? &own.plane : nullptr);
     }

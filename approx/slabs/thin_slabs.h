@@ -27,7 +27,7 @@ enum class GrownStars { kOfHalf, kFromTwo };
 ///         may name. gradient_factor: rank x rank. find_determinants: asked for them once.
 /// Above   not PointsAbove::kAny.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
-///           it, no plane may be found (all_fit tells).
+///           it, no plane may be found (unfit tells).
 /// Cost      rank products and rank random reads of 2 bytes (4 where points are many) a simplex, by all
 ///           threads; then some random reads for each. Where the hull is not convex, a product of a direction
 ///           with all points left out for each slab tried.

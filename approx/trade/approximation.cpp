@@ -250,7 +250,7 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, Facet
 /// Is nothing left to be looked at? All points were seen, no simplex was too wide alone, the planes bound a
 /// region, and hardly any two facets would fit into one slab.
 bool Approximation::is_final(const DualFacets& facets) const {
-  return facets.all_fit && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
+  return facets.unfit == 0 && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
          !is_worth_joining_again(facets.count(), live_count());
 }
 

@@ -126,6 +126,10 @@ class Approximation {
     double slab = 0.0;    // in the hull that is wanted, about
   };
   SlabGuess guess_slab(std::uint64_t count, CountSearch& search);
+  bool leaves_out_far_above(double width);
+  bool may_grow_held(const CountSearch& search, double share);
+  Covering hold_width(double width, double outside_width, double share, CountSearch& search);
+  void search_held(std::uint64_t count, double first_width, double outside_width, CountSearch& search);
   void foresee_coverings(double seconds_at_first, const CountSearch& search);
   double consider(const Covering& covering, double slab, CountSearch& search);
   void close_and_join(Covering& covering, double width, bool joins) const;
@@ -135,6 +139,7 @@ class Approximation {
   std::vector<std::uint32_t> simplices_of_widest(const Covering& covering, const TrueWidths& widths) const;
   std::vector<PointId> points_far_above(std::span<const std::uint32_t> simplices, double width);
   void take_in_widening(std::uint64_t count, double outside_width, CountSearch& search);
+  void cover_again(std::uint64_t count, double width, double outside_width, CountSearch& search);
   bool look_further(double width, Covering& covering);
   void look_for_fewer(double width, Covering& covering);
   void look_for_narrower(std::uint64_t count, CountSearch& search);

@@ -5,43 +5,35 @@
 
 #include "approx/facets/exact_facets.h"
 #include "approx/trade/approximation.h"
+#include "approx/trade/count_limits.h"
 #include "approx/trade/facet_balance.h"
 #include "approx/trade/region_closing.h"
 
 namespace ndhull {
 namespace {
 
-/// Simplices that are worth growing for a target number; so many where points left out are nearly as far
-/// outside as a facet may be wide. Covering them takes about as long as growing them did.
-constexpr std::uint64_t kWorthGrowing = 250'000, kMostWorthGrowing = 1'000'000;
-/// The same where points are further outside than facets of a coarse hull are wide.
-constexpr std::uint64_t kMostWhereFar = 2'000'000;
+/// Simplices that are worth growing for a target number, whatever is outside.
+constexpr std::uint64_t kWorthGrowing = 250'000;
 /// Simplices for each facet of a target number, at first and at most.
 constexpr std::uint64_t kSimplicesPerFacetFirst = 16, kSimplicesPerFacet = 96;
 /// One in so many is grown beyond that for slabs as thin as they are thought to become.
 constexpr std::uint64_t kFewMore = 8;
-/// Part of the width that points left out may be outside without growth going on to kMostWorthGrowing, and
-/// where slabs turned out narrower than growth was meant for.
+/// Part of the width that points left out may be outside without growth going on to most_worth_growing,
+/// and where slabs turned out narrower than growth was meant for.
 constexpr double kNearSlab = 0.75, kTooNearSlab = 0.85;
 /// Growth goes on where slabs turn out narrower than this part of what it was meant for.
 constexpr double kCoarse = 0.75;
-/// Simplices that are covered, counted again for each covering, until what there is is taken. On wine (11-d),
-/// where each round finds more points that a facet has to have, that is 5 to 20 s. Rounds, likewise.
-constexpr std::uint64_t kMostCovered = 8'000'000;
 constexpr int kMostRounds = 24, kMostCoverings = 16, kMostCoveringsLate = 4;
 /// A covering is given up when it would have so many times the facets that are wanted: one by slabs that are
 /// far too thin takes seconds where points are left out far above them.
 constexpr std::uint64_t kFarTooMany = 8;
 /// Simplices of a hull that takes hardly any time to be grown to the end.
 constexpr std::uint64_t kSmallHull = 50'000;
-/// Disjoint slabs take this part of the time of overlapping ones, at most.
-constexpr std::uint64_t kDisjointQuicker = 2;
 /// Coverings of the search, and what takes off the last tenth.
 constexpr CoverEffort kPlain{.final_fit_steps = 0};
 constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
 /// By how much the logarithm of the number may fall short: of a hull that goes on growing, and before facets
-/// are balanced, which uses what there is: of coverings that take long, and of others. Further off than the
-/// last, a step goes beyond the number.
+/// are balanced: of coverings that take long, and of others. Further off, a step goes beyond the number.
 constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
 constexpr double kAboveFurthest = 1.1;  // a first width, in parts of how far outside the furthest point is
 /// The same for a first width, and the least part of it that is left without the points left out.
@@ -110,9 +102,12 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
 /// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where
-/// it falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved.
+/// it falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more
+/// than a hull has to have says nothing about the width: steps are long then.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width,
                                     double slack, CountSearch& search) {
+  constexpr double kStepOfFewest = 0.3;
+  const std::size_t fewest = space_->rank() + space_->rank() / 2 + 1;
   std::optional<SlabCover> overlapping;
   const double power_of_ball = 0.5 * (static_cast<double>(space_->rank()) - 1.0);
   const double least_step = slack / power_of_ball;
@@ -124,8 +119,9 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
   std::optional<Trial> few, many, last;  // few, many: nearest with at most, with more than the count
   Covering best;
   double best_width = 0.0, log_width = std::log(start_width);
+  bool are_fewest = false;
   for (int trial = 0; trial < kMostCoverings; ++trial) {
-    const bool is_enough = growth_.is_late() || search.covered > kMostCovered;
+    const bool is_enough = growth_.is_late() || search.covered > most_covered(count);
     if (is_enough && (!best.planes.empty() || trial >= kMostCoveringsLate)) break;
     const double width = std::exp(log_width);
     CountTrial found = try_width(count, effort, width, overlapping, search);
@@ -145,7 +141,8 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
         best = std::move(found.covering);
         best_width = width;
       }
-      if (is_hull && (width <= flat() || wanted - few->log_count < slack)) break;
+      are_fewest = best.planes.size() <= fewest && fewest < count;
+      if (is_hull && (width <= flat() || (!are_fewest && wanted - few->log_count < slack))) break;
     }
     if (few && many) {
       const double between = few->log_width - many->log_width;
@@ -156,8 +153,8 @@ Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effo
       log_width = many->log_width + std::clamp(part, 0.08, 0.92) * between;
     } else if (few) {
       const double short_of = wanted - few->log_count;
-      log_width -=
-          std::max(least_step, (short_of > kFar ? 1.2 * short_of : short_of - 0.5 * slack) / search.power);
+      const double step = (short_of > kFar ? 1.2 * short_of : short_of - 0.5 * slack) / search.power;
+      log_width -= std::max(step, are_fewest ? kStepOfFewest : least_step);
       if (few->log_width > std::log(flat())) log_width = std::max(log_width, std::log(flat()));
     } else {
       const double beyond = many->log_count - wanted;
@@ -191,8 +188,10 @@ std::uint64_t Approximation::balance_facets(std::uint64_t count, const Covering&
     const std::size_t spare = count - std::min(count, balance.covering().planes.size());
     balance.split_widest((spare + 2) / 3);
     balance.turn();
-    if (!keeps_hull(balance.covering())) break;
-    width = std::min(width, consider(balance.covering(), slab, search));
+    Covering turned = balance.covering();
+    if (!keeps_hull(turned)) close_and_join(turned, slab, false);  // others have taken what had closed it
+    if (turned.planes.size() > count || !keeps_hull(turned)) break;
+    width = std::min(width, consider(turned, slab, search));
     double& earlier = before[turn % kTurnsLookedBack];
     if (width > (live_count() > kMostProbed ? kNarrower : kNarrowerOfFew) * earlier) return turn + 1;
     earlier = width;
@@ -246,7 +245,7 @@ void Approximation::probe_widths(std::uint64_t count, CountSearch& search) {
 /// Growth for so many facets.
 void Approximation::grow_for_count(std::uint64_t count, double outside_width, const SlabGuess& guess) {
   const std::uint64_t most = std::min(std::max(kWorthGrowing, kSimplicesPerFacet * count), affordable_rows_);
-  const std::uint64_t most_far = std::min(kMostWorthGrowing, affordable_rows_);
+  const std::uint64_t most_far = std::min(most_worth_growing(count), affordable_rows_);
   const auto has_paused = [&](std::uint64_t enough, double height) {
     return !growth_.grow_to(outside_width, enough, height) && !growth_.is_limited();
   };
@@ -260,10 +259,10 @@ void Approximation::grow_for_count(std::uint64_t count, double outside_width, co
     is_paused = has_paused(enough, HUGE_VAL);
   }
   // What is further outside makes facets wider, whatever the slabs.
-  const std::uint64_t most_where_far = std::min(kMostWhereFar, affordable_rows_);
+  const std::uint64_t most_further = std::min(most_where_far(count), affordable_rows_);
   const auto are_further = [&] { return growth_.furthest_height() > guess.coarse; };
-  for (std::uint64_t enough = most; is_paused && live_count() < most_where_far && are_further();) {
-    enough = std::min(most_where_far, std::max(enough, live_count()) + kWorthGrowing / 4);
+  for (std::uint64_t enough = most; is_paused && live_count() < most_further && are_further();) {
+    enough = std::min(most_further, std::max(enough, live_count()) + kWorthGrowing / 4);
     is_paused = has_paused(enough, HUGE_VAL);
   }
   locate_left_out(outside_width);
@@ -274,13 +273,8 @@ bool Approximation::is_coarse_for(double slab, double outside_width) {
   const double height = growth_.furthest_height();
   if (height == 0.0)  // it had ended
     return outside_width > flat() && kShareForGrowth * slab < kCoarse * outside_width;
-  return height > kTooNearSlab * slab && live_count() < std::min(kMostWorthGrowing, affordable_rows_);
-}
-
-/// Is the hull the exact one? Nothing that was left out is outside by more than rounding.
-bool Approximation::is_whole() {
-  return growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
-         hull_.max_outside_gauge <= 4.0 * growth_.work().options.shift;
+  return height > kTooNearSlab * slab &&
+         live_count() < std::min(most_worth_growing(accuracy_.facets), affordable_rows_);
 }
 
 /// From a coarse hull. Its slabs hold the points left out as well: those of the hull that is wanted are
@@ -338,7 +332,10 @@ FacetClusters Approximation::run_count() {
     return FacetClusters{};       // the exact hull it is
   search.narrowest = Covering{};  // of the coarse hull
   bool is_better_search = false, is_from_wide = false;
-  for (int round = 1; !search.has_any() || !growth_.is_late(); ++round) {
+  if (!is_given && leaves_out_far_above(guess.coarse))
+    search_held(count, guess.coarse, outside_width, search);
+  const bool is_held = search.has_any();
+  for (int round = 1; !is_held && (!search.has_any() || !growth_.is_late()); ++round) {
     make_space(true);
     const bool takes_long = effort.choices > 1 && live_count() > kTakesLong;
     const double slack = !is_better_search ? kSome : takes_long ? kLess : kFairly;
@@ -353,7 +350,7 @@ FacetClusters Approximation::run_count() {
     const TrueWidths widths = true_widths(covering);
     const std::size_t known = extra_.size();
     const Offenders offenders = add_offenders(covering, widths, std::max(slab, flat()));
-    const bool is_enough = search.covered > kMostCovered || round == kMostRounds;
+    const bool is_enough = search.covered > most_covered(count) || round == kMostRounds;
     const bool may_grow = !growth_.is_limited() && !growth_.is_late() && !is_enough;
     const double meant = kBalanced * slab;
     const bool is_coarse = may_grow && !is_given && is_coarse_for(meant, outside_width);

@@ -65,6 +65,19 @@ std::vector<PointId> Approximation::points_far_above(std::span<const std::uint32
   return points;
 }
 
+/// What was taken in has made facets wider: the hull as it is now is covered anew by slabs of the width that
+/// there was.
+void Approximation::cover_again(std::uint64_t count, double width, double outside_width,
+                                CountSearch& search) {
+  const double before = search.has_any() ? search.width : HUGE_VAL;
+  search_held(count, width, outside_width, search);
+  if (search.has_any() && search.width < before)
+    balance_facets(count, Covering(search.narrowest), search.slab, kTurnsOfRound, search);
+  if (!search.has_any())
+    consider(cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates()), 0.0,
+             search);
+}
+
 /// Takes in what keeps the widest facets wide, round by round, as long as facets become narrower by it. The
 /// narrowest covering so far is carried from hull to hull.
 void Approximation::take_in_widening(std::uint64_t count, double outside_width, CountSearch& search) {
@@ -79,15 +92,14 @@ void Approximation::take_in_widening(std::uint64_t count, double outside_width, 
     locate_left_out(outside_width);
     make_space(true);
     const double width = search.width, slab = search.slab;
-    const Covering carried = carry_facets(growth_.work().complex, *space_, before, search.narrowest);
+    Covering carried = carry_facets(growth_.work().complex, *space_, before, search.narrowest);
     search.narrowest = Covering{};
-    if (keeps_hull(carried)) {
+    if (!keeps_hull(carried)) close_and_join(carried, width, false);
+    if (carried.planes.size() <= count && keeps_hull(carried)) {
       consider(carried, slab, search);
       balance_facets(count, carried, slab, kTurnsOfRound, search);
-    } else {
-      consider(cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates()), 0.0,
-               search);
     }
+    if (!search.has_any() || search.width > width) return cover_again(count, width, outside_width, search);
     if (search.width > kWorthAnother * width) return;
   }
 }

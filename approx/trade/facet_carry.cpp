@@ -3,20 +3,22 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
 
+#include "approx/slabs/dual_facets.h"
 #include "approx/slabs/plane_fit.h"
+#include "core/dimension_switch.h"
 #include "core/ids.h"
 #include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {
 
-constexpr std::size_t kNewRowsAtATime = 256, kPointsAtATime = 8, kPlanesAtATime = 4, kHostsAtATime = 64;
+constexpr std::size_t kNewRowsAtATime = 1024, kPlanesAtATime = 4;
+/// Passes after which what is in some facet stays there.
+constexpr int kPasses = 64;
 
 bool is_live(const SimplicialComplex& complex, std::uint32_t row) {
   return complex.state[row] == SimplexState::kLive;
@@ -70,58 +72,67 @@ class FacetCarrier {
     }
   }
 
-  /// Each where it lies least deep, the first of several. Some hosts at a time: how deep all vertices lie
-  /// below their planes is found once, and of a simplex the deepest of its vertices.
+  /// Passes over new simplices, each of which looks at the facets that its neighbours were in after the pass
+  /// before: from the rim inwards, and again where a neighbour has changed.
   void put_new_rows() {
-    number_vertices();
-    std::vector<float> depths(points_.size() * kHostsAtATime), least(new_rows_.size(), HUGE_VALF);
-    for (std::size_t first = 0; first < hosts_.size(); first += kHostsAtATime) {
-      const std::size_t count = std::min(kHostsAtATime, hosts_.size() - first);
-      const auto hosts = std::span(hosts_).subspan(first, count);
-      for_each_block(points_.size(), kPointsAtATime, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) find_depths(hosts, points_[i], &depths[i * kHostsAtATime]);
+    depth_of_.assign(new_rows_.size(), HUGE_VALF);
+    next_.assign(new_rows_.size(), kNone);
+    place_of_.assign(complex_.row_count, kNone);
+    for (std::uint32_t i = 0; i < new_rows_.size(); ++i) place_of_[new_rows_[i]] = i;
+    is_near_.assign(new_rows_.size(), 1);
+    for (int pass = 0;; ++pass) {
+      call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) {
+        for_each_block(new_rows_.size(), kNewRowsAtATime, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i)
+            if (is_near_[i] != 0) find_highest<d>(i);
+        });
       });
-      for_each_block(new_rows_.size(), kNewRowsAtATime, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) put(new_rows_[i], hosts, depths, least[i]);
-      });
+      const bool has_moved = move();
+      const auto open = std::ranges::find(next_, kNone);
+      if (open == next_.end() && (!has_moved || pass >= kPasses)) return;
+      // Nothing that is still there is beside it.
+      if (!has_moved) next_[static_cast<std::size_t>(open - next_.begin())] = hosts_.front();
     }
   }
 
-  /// The vertices of new simplices, as rows of the space.
-  void number_vertices() {
-    number_of_.assign(space_.vertex_count(), kNone);
-    for (const std::uint32_t row : new_rows_) {
-      for (const PointId id : complex_.vertices(SimplexId{row})) {
-        const std::uint32_t point = space_.row_of(id);
-        if (number_of_[point] != kNone) continue;
-        number_of_[point] = static_cast<std::uint32_t>(points_.size());
-        points_.push_back(point);
-      }
+  /// Of its neighbours' facets that below whose plane a new simplex lies highest, the first of several.
+  template <std::size_t D>
+  void find_highest(std::size_t place) {
+    const SimplexId row{new_rows_[place]};
+    const std::span<const PointId> vertices = complex_.vertices(row);
+    const std::span<const SimplexId> neighbours = complex_.neighbours(row);
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::uint32_t facet = carried_.facet_of[neighbours[k].value];
+      if (facet == kNone || facet == next_[place]) continue;
+      // Of the vertices this one alone is not the neighbour's: most facets are refused by it.
+      if (depth_below<D>(facet, vertices[k]) >= depth_of_[place]) continue;
+      float deepest = 0.0F;
+      for (const PointId id : vertices) deepest = std::max(deepest, depth_below<D>(facet, id));
+      if (deepest >= depth_of_[place]) continue;
+      depth_of_[place] = deepest;
+      next_[place] = facet;
     }
   }
 
-  void find_depths(std::span<const std::uint32_t> hosts, std::uint32_t point, float* depths) const {
-    const double* const z = space_.row(point);
-    for (std::size_t i = 0; i < hosts.size(); ++i) {
-      const FittedPlane& plane = carried_.planes[hosts[i]];
-      depths[i] = static_cast<float>(
-          std::inner_product(plane.normal.begin(), plane.normal.end(), z, -plane.height) * -1.0);
-    }
+  template <std::size_t D>
+  float depth_below(std::uint32_t facet, PointId vertex) const {
+    const FittedPlane& plane = carried_.planes[facet];
+    return static_cast<float>(plane.height -
+                              dot_in_frame<D>(plane.normal.data(), space_.row(space_.row_of(vertex))));
   }
 
-  void put(std::uint32_t row, std::span<const std::uint32_t> hosts, const std::vector<float>& depths,
-           float& least) {
-    std::array<float, kHostsAtATime> deepest;
-    deepest.fill(-HUGE_VALF);
-    for (const PointId id : complex_.vertices(SimplexId{row})) {
-      const float* const own = &depths[number_of_[space_.row_of(id)] * kHostsAtATime];
-      for (std::size_t i = 0; i < kHostsAtATime; ++i) deepest[i] = std::max(deepest[i], own[i]);
+  /// True: some have moved, and those beside them are to look again.
+  bool move() {
+    std::ranges::fill(is_near_, std::uint8_t{0});
+    bool has_moved = false;
+    for (std::size_t i = 0; i < new_rows_.size(); ++i) {
+      if (carried_.facet_of[new_rows_[i]] == next_[i]) continue;
+      carried_.facet_of[new_rows_[i]] = next_[i];
+      has_moved = true;
+      for (const SimplexId neighbour : complex_.neighbours(SimplexId{new_rows_[i]}))
+        if (place_of_[neighbour.value] != kNone) is_near_[place_of_[neighbour.value]] = 1;
     }
-    for (std::size_t i = 0; i < hosts.size(); ++i) {
-      if (deepest[i] >= least) continue;
-      least = deepest[i];
-      carried_.facet_of[row] = hosts[i];
-    }
+    return has_moved;
   }
 
   void drop_empty() {
@@ -165,9 +176,12 @@ class FacetCarrier {
   const Covering& old_;
   Covering carried_;
   std::vector<std::uint32_t> new_rows_;
-  std::vector<std::uint32_t> hosts_;      // facets that new simplices may go to
-  std::vector<std::uint32_t> points_;     // their vertices
-  std::vector<std::uint32_t> number_of_;  // per vertex of the space: in points_
+  std::vector<std::uint32_t> hosts_;     // facets that new simplices may go to
+  std::vector<std::uint32_t> place_of_;  // per row: in new_rows_
+  // Of each new row the facet that it goes to, how deep it lies there, and whether a neighbour has moved.
+  std::vector<std::uint32_t> next_;
+  std::vector<float> depth_of_;
+  std::vector<std::uint8_t> is_near_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A covering of a hull that has grown since: what is still there stays in its facet, and the new simplices go
-// to the facets of those that they have replaced.
+// to facets around those that they have replaced.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@ class SimplexNames {
   std::vector<std::uint32_t> names_;  // per row
 };
 
-/// `covering` is of the complex as `before` has it. Each new simplex goes to the facet below whose plane it
-/// lies highest, of those beside new simplices and those that have lost some. Facets left without a simplex
-/// are dropped, the planes of all others measured.
+/// `covering` is of the complex as `before` has it. New simplices go to facets of their neighbours, from the
+/// rim inwards, until none lies higher in another neighbour's. Facets left without a simplex are dropped, the
+/// planes of all others measured.
 ///
 /// Shapes  space: of the complex as it is now.
-/// Cost    of each new simplex some products with each of these facets' planes; of each simplex its vertices;
-///         of each facet a product of its normal with all points.
+/// Cost    of each new simplex some products for each of its neighbours, in some passes; of each simplex its
+///         vertices; of each facet a product of its normal with all points.
 Covering carry_facets(const SimplicialComplex& complex, const WidthSpace& space, const SimplexNames& before,
                       const Covering& covering);
 

@@ -161,6 +161,12 @@ double Approximation::less_outside(double outside_width, int round) const {
   return round < kPatience ? outside_width : kLess * outside_width;
 }
 
+/// Is the hull the exact one? Nothing that was left out is outside by more than rounding.
+bool Approximation::is_whole() {
+  return growth_.furthest_height() == 0.0 && !growth_.is_limited() &&
+         hull_.max_outside_gauge <= 4.0 * growth_.work().options.shift;
+}
+
 /// Puts back what was left out and is further outside than this.
 void Approximation::take_in(double outside_width) {
   GrowthWork& work = growth_.work();

@@ -84,7 +84,7 @@ TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
     for (const double width : {0.01, 0.05, 0.1}) {
       const std::optional<DualFacets> facets = slabs.partition(width);
       ASSERT_TRUE(facets);
-      EXPECT_TRUE(facets->all_fit);
+      EXPECT_EQ(facets->unfit, 0U);
       EXPECT_TRUE(facets->are_far_from_centre);
       expect_lists(sphere, *facets);
       expect_slabs(sphere, *facets, width);

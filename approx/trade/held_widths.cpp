@@ -1,0 +1,128 @@
+// A number of facets where growth leaves out points that are far above simplices: the part of
+// approx/trade/approximation.h that then looks for the width.
+//
+// Idea. How many facets slabs of a width leave says little there: most may be simplices that are too wide
+// alone, and taking in what is above these changes the number by any factor. So a width is held until growth
+// has taken in all that makes facets wider, as for a target width; what their number is then decides whether
+// a smaller or a larger one is tried.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "approx/trade/approximation.h"
+#include "approx/trade/count_limits.h"
+#include "approx/trade/region_closing.h"
+
+namespace ndhull {
+namespace {
+
+/// Simplices that are worth growing, and what the first widths may have of them, and each after it more.
+constexpr std::uint64_t kMostHeld = 4'000'000, kGrownAtOnce = 62'500;
+constexpr double kShareAtFirst = 0.5, kShareMore = 0.125;
+/// Points are left out far where one is so far outside, in parts of a width, and facets far too wide.
+constexpr double kFarOutside = 0.5, kFarTooWide = 1.25;
+/// Widths that are tried, and rounds of growth for each.
+constexpr int kWidths = 10, kHoldRounds = 12;
+/// So much of the number is near enough, since balancing splits facets, and so near widths.
+constexpr double kNearlyCount = 0.7, kNearWidths = 1.01;
+/// The number falls with a larger power of the width than of balls, since points are left out. Steps of the
+/// logarithm of the width: the shortest, longer with each; the longest; after one that could not be held.
+constexpr double kSteep = 1.5, kShortestStep = 0.02, kLongestStep = 0.25, kStepWhereNotHeld = 0.12;
+
+}  // namespace
+
+/// Are points left out so far above simplices that these alone are much wider than slabs of this width?
+bool Approximation::leaves_out_far_above(double width) {
+  if (growth_.is_limited() || growth_.is_late() || growth_.furthest_height() < kFarOutside * width)
+    return false;
+  make_space(true);
+  FacetLimit no_limit;
+  const std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
+  return slabs && slabs->unfit > 0 &&
+         true_widths(covering_of(*slabs, *space_)).widest() > kFarTooWide * width;
+}
+
+/// Is there room and time for growth to go on? A part of the room is left for the widths after the first.
+bool Approximation::may_grow_held(const CountSearch& search, double share) {
+  const double most = share * static_cast<double>(std::min(kMostHeld, affordable_rows_));
+  return !growth_.is_limited() && !growth_.is_late() &&
+         search.covered <= 2 * most_covered(accuracy_.facets) && static_cast<double>(live_count()) < most;
+}
+
+/// Facets no wider than this over all points. No planes: growth would have to go on further than it may.
+Covering Approximation::hold_width(double width, double outside_width, double share, CountSearch& search) {
+  HullFacets known;
+  known.width = width;
+  for (int round = 0;; ++round) {
+    make_space(true);
+    const bool may_grow = may_grow_held(search, share) && round < kHoldRounds;
+    FacetLimit no_limit;
+    std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
+    search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
+    Covering covering = slabs ? covering_of(*slabs, *space_)
+                              : SlabCover(growth_.work().complex, *space_, is_convex())
+                                    .cover(width, CoverEffort{.final_fit_steps = 0});
+    close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), may_grow ? &known : nullptr,
+                          covering);
+    std::vector<LocatedPoint> above;
+    if (!may_grow || known.missing.empty()) {
+      const TrueWidths widths = true_widths(covering);
+      if (widths.widest() <= width) return covering;
+      above = add_offenders(covering, widths, width).above_simplices;
+      if (!may_grow || above.empty()) return Covering{};
+    }
+    search.narrowest = Covering{};
+    if (above.empty()) {
+      take_in(known.missing);
+    } else {
+      growth_.put_back(above);
+      while (growth_.furthest_height() > width && may_grow_held(search, share))
+        if (growth_.grow_to(outside_width, live_count() + kGrownAtOnce, HUGE_VAL)) break;
+    }
+    locate_left_out(outside_width);
+  }
+}
+
+/// The least width held by at most `count` facets, about, from a first one on. Leaves the narrowest.
+void Approximation::search_held(std::uint64_t count, double first_width, double outside_width,
+                                CountSearch& search) {
+  const double wanted = std::log(static_cast<double>(count));
+  double power = kSteep * 0.5 * (static_cast<double>(space_->rank()) - 1.0);
+  struct Held {
+    double log_width, log_count;
+  };
+  std::optional<Held> few, many;
+  double log_width = std::log(first_width), share = kShareAtFirst;
+  for (int trial = 0; trial < kWidths && !growth_.is_late(); ++trial) {
+    const double width = std::exp(log_width);
+    Covering covering = hold_width(width, outside_width, share, search);
+    share = std::min(1.0, share + kShareMore);
+    if (covering.planes.size() > count && covering.planes.size() <= 2 * count &&
+        is_worth_joining(count, live_count()))
+      join_neighbours(covering, width);
+    const std::size_t facets = covering.planes.size();
+    if (covering.planes.empty()) {  // as if they were too many
+      many = Held{log_width, wanted + kStepWhereNotHeld * power};
+    } else {
+      (facets <= count ? few : many) = Held{log_width, std::log(static_cast<double>(facets))};
+      if (facets <= count && keeps_hull(covering)) consider(covering, width, search);
+      if (facets <= count &&
+          (few->log_count > wanted + std::log(kNearlyCount) || !may_grow_held(search, share)))
+        return;
+    }
+    if (few && many) {
+      const double between = few->log_width - many->log_width;
+      if (between < std::log(kNearWidths)) return;
+      power = std::max(power, (many->log_count - few->log_count) / between);
+      const double part = (many->log_count - wanted) / (many->log_count - few->log_count);
+      log_width = many->log_width + std::clamp(part, 0.2, 0.8) * between;
+    } else {
+      const double beyond = (few ? few->log_count : many->log_count) - wanted;
+      const double step = std::clamp(std::abs(beyond) / power, kShortestStep * (trial + 1), kLongestStep);
+      log_width += few ? -step : step;
+    }
+  }
+}
+
+}  // namespace ndhull
