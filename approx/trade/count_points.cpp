@@ -92,7 +92,7 @@ void Approximation::take_in_widening(std::uint64_t count, double outside_width, 
     locate_left_out(outside_width);
     make_space(true);
     const double width = search.width, slab = search.slab;
-    Covering carried = carry_facets(growth_.work().complex, *space_, before, search.narrowest);
+    Covering carried = carry_facets(growth_.work().complex, *space_, before, search.narrowest, width);
     search.narrowest = Covering{};
     if (!keeps_hull(carried)) close_and_join(carried, width, false);
     if (carried.planes.size() <= count && keeps_hull(carried)) {

@@ -16,7 +16,7 @@
 namespace ndhull {
 namespace {
 
-constexpr std::size_t kNewRowsAtATime = 1024, kPlanesAtATime = 4;
+constexpr std::size_t kNewRowsAtATime = 1024, kDeepOnesAtATime = 64, kPlanesAtATime = 4;
 /// Passes after which what is in some facet stays there.
 constexpr int kPasses = 64;
 
@@ -27,8 +27,12 @@ bool is_live(const SimplicialComplex& complex, std::uint32_t row) {
 class FacetCarrier {
  public:
   FacetCarrier(const SimplicialComplex& complex, const WidthSpace& space, const SimplexNames& before,
-               const Covering& covering)
-      : complex_(complex), space_(space), before_(before), old_(covering) {}
+               const Covering& covering, double width)
+      : complex_(complex),
+        space_(space),
+        before_(before),
+        old_(covering),
+        width_(static_cast<float>(width)) {}
 
   Covering run() {
     carried_.planes = old_.planes;
@@ -80,6 +84,11 @@ class FacetCarrier {
     place_of_.assign(complex_.row_count, kNone);
     for (std::uint32_t i = 0; i < new_rows_.size(); ++i) place_of_[new_rows_[i]] = i;
     is_near_.assign(new_rows_.size(), 1);
+    settle();
+    if (put_deep_ones()) settle();
+  }
+
+  void settle() {
     for (int pass = 0;; ++pass) {
       call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) {
         for_each_block(new_rows_.size(), kNewRowsAtATime, [&](std::size_t begin, std::size_t end) {
@@ -95,6 +104,19 @@ class FacetCarrier {
     }
   }
 
+  /// Those deeper than the widest facet was look at all facets around. True: some have moved.
+  bool put_deep_ones() {
+    call_with_dimension<2, kMaxRank>(complex_.rank, [&](auto d) {
+      for_each_block(new_rows_.size(), kDeepOnesAtATime, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (depth_of_[i] <= width_) continue;
+          for (const std::uint32_t host : hosts_) try_facet<d>(i, host);
+        }
+      });
+    });
+    return move();
+  }
+
   /// Of its neighbours' facets that below whose plane a new simplex lies highest, the first of several.
   template <std::size_t D>
   void find_highest(std::size_t place) {
@@ -103,15 +125,21 @@ class FacetCarrier {
     const std::span<const SimplexId> neighbours = complex_.neighbours(row);
     for (std::size_t k = 0; k < D; ++k) {
       const std::uint32_t facet = carried_.facet_of[neighbours[k].value];
-      if (facet == kNone || facet == next_[place]) continue;
       // Of the vertices this one alone is not the neighbour's: most facets are refused by it.
-      if (depth_below<D>(facet, vertices[k]) >= depth_of_[place]) continue;
-      float deepest = 0.0F;
-      for (const PointId id : vertices) deepest = std::max(deepest, depth_below<D>(facet, id));
-      if (deepest >= depth_of_[place]) continue;
-      depth_of_[place] = deepest;
-      next_[place] = facet;
+      if (facet != kNone && facet != next_[place] && depth_below<D>(facet, vertices[k]) < depth_of_[place])
+        try_facet<D>(place, facet);
     }
+  }
+
+  template <std::size_t D>
+  void try_facet(std::size_t place, std::uint32_t facet) {
+    float deepest = 0.0F;
+    for (const PointId id : complex_.vertices(SimplexId{new_rows_[place]})) {
+      deepest = std::max(deepest, depth_below<D>(facet, id));
+      if (deepest >= depth_of_[place]) return;
+    }
+    depth_of_[place] = deepest;
+    next_[place] = facet;
   }
 
   template <std::size_t D>
@@ -174,6 +202,7 @@ class FacetCarrier {
   const WidthSpace& space_;
   const SimplexNames& before_;
   const Covering& old_;
+  float width_;
   Covering carried_;
   std::vector<std::uint32_t> new_rows_;
   std::vector<std::uint32_t> hosts_;     // facets that new simplices may go to
@@ -204,8 +233,8 @@ std::uint32_t SimplexNames::name_of(const SimplicialComplex& complex, std::uint3
 }
 
 Covering carry_facets(const SimplicialComplex& complex, const WidthSpace& space, const SimplexNames& before,
-                      const Covering& covering) {
-  return FacetCarrier(complex, space, before, covering).run();
+                      const Covering& covering, double width) {
+  return FacetCarrier(complex, space, before, covering, width).run();
 }
 
 }  // namespace ndhull

@@ -28,13 +28,14 @@ class SimplexNames {
 };
 
 /// `covering` is of the complex as `before` has it. New simplices go to facets of their neighbours, from the
-/// rim inwards, until none lies higher in another neighbour's. Facets left without a simplex are dropped, the
+/// rim inwards, until none lies higher in another neighbour's; those deeper than `width` [distance] look at all
+/// facets beside new simplices and that have lost some. Facets left without a simplex are dropped, the
 /// planes of all others measured.
 ///
 /// Shapes  space: of the complex as it is now.
 /// Cost    of each new simplex some products for each of its neighbours, in some passes; of each simplex its
 ///         vertices; of each facet a product of its normal with all points.
 Covering carry_facets(const SimplicialComplex& complex, const WidthSpace& space, const SimplexNames& before,
-                      const Covering& covering);
+                      const Covering& covering, double width);
 
 }  // namespace ndhull

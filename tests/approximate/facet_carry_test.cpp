@@ -19,6 +19,8 @@
 namespace ndhull {
 namespace {
 
+constexpr double kWidth = 0.25;  // so deep that simplices look at all facets around
+
 using Vertices = std::vector<std::uint32_t>;  // of a simplex, ascending
 
 /// A hull that grows step by step.
@@ -93,7 +95,7 @@ TEST(FacetCarryLaw, SimplicesStayInTheirFacetsAndNewOnesLieNoHigherInANeighbours
         normal_of[hull.vertices_of(row)] = covering.planes[covering.facet_of[row]].normal;
     const SimplexNames before(complex);
     hull.grow_to(140);
-    const Covering carried = carry_facets(complex, *hull.space, before, covering);
+    const Covering carried = carry_facets(complex, *hull.space, before, covering, kWidth);
     const std::set<std::vector<double>> hosts = hosts_of(hull, normal_of);
     ASSERT_FALSE(hosts.empty());
     std::vector<double> lows(carried.planes.size(), HUGE_VAL);
@@ -113,9 +115,13 @@ TEST(FacetCarryLaw, SimplicesStayInTheirFacetsAndNewOnesLieNoHigherInANeighbours
       ++fresh;
       EXPECT_TRUE(hosts.contains(normal));
       const double depth = hull.height(normal) - hull.low(normal, vertices);
+      double least = HUGE_VAL;
+      for (const std::vector<double>& host : hosts)
+        least = std::min(least, hull.height(host) - hull.low(host, vertices));
+      EXPECT_LE(depth, std::max(least, kWidth) + 1e-6);  // in single precision
       for (const SimplexId beside : complex.neighbours(SimplexId{row})) {
         const std::vector<double>& other = carried.planes[carried.facet_of[beside.value]].normal;
-        EXPECT_LE(depth, hull.height(other) - hull.low(other, vertices) + 1e-6);  // in single precision
+        EXPECT_LE(depth, hull.height(other) - hull.low(other, vertices) + 1e-6);
       }
     }
     EXPECT_GT(kept, 5U);
@@ -129,7 +135,7 @@ TEST(FacetCarryLaw, SimplicesStayInTheirFacetsAndNewOnesLieNoHigherInANeighbours
     EXPECT_EQ(carried.widest, widest);
     tbb::task_arena alone(1);
     alone.execute([&] {
-      const Covering again = carry_facets(complex, *hull.space, before, covering);
+      const Covering again = carry_facets(complex, *hull.space, before, covering, kWidth);
       EXPECT_EQ(again.facet_of, carried.facet_of);
     });
   }
@@ -141,7 +147,7 @@ TEST(FacetCarryLaw, AHullThatHasNotGrownKeepsItsFacets) {
   SlabCover cover(hull.work.complex, *hull.space, false);
   const Covering covering = cover.cover(0.2, CoverEffort{.final_fit_steps = 0});
   const SimplexNames before(hull.work.complex);
-  const Covering carried = carry_facets(hull.work.complex, *hull.space, before, covering);
+  const Covering carried = carry_facets(hull.work.complex, *hull.space, before, covering, kWidth);
   EXPECT_EQ(carried.facet_of, covering.facet_of);
 }
 
