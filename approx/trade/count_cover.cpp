@@ -101,9 +101,9 @@ Approximation::CountTrial Approximation::try_width(std::uint64_t count, const Co
 
 /// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
-/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where
-/// it falls off a cliff (answers 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more
-/// than a hull has to have says nothing about the width: steps are long then.
+/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where it falls off a cliff
+/// (answers 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more than a hull has to have
+/// says nothing about the width: steps are long then.
 Covering Approximation::cover_count(std::uint64_t count, const CoverEffort& effort, double start_width,
                                     double slack, CountSearch& search) {
   constexpr double kStepOfFewest = 0.3;
