@@ -18,7 +18,7 @@ namespace ndhull {
 namespace {
 
 /// Simplices that are worth growing, and what the first widths may have of them, and each after it more.
-constexpr std::uint64_t kMostHeld = 4'000'000, kGrownAtOnce = 62'500;
+constexpr std::uint64_t kMostHeld = 2'500'000, kGrownAtOnce = 62'500;
 constexpr double kShareAtFirst = 0.5, kShareMore = 0.125;
 /// Points are left out far where one is so far outside, in parts of a width, and facets far too wide.
 constexpr double kFarOutside = 0.5, kFarTooWide = 1.25;
@@ -46,14 +46,12 @@ bool Approximation::leaves_out_far_above(double width) {
 /// Is there room and time for growth to go on? A part of the room is left for the widths after the first.
 bool Approximation::may_grow_held(const CountSearch& search, double share) {
   const double most = share * static_cast<double>(std::min(kMostHeld, affordable_rows_));
-  return !growth_.is_limited() && !growth_.is_late() &&
-         search.covered <= 2 * most_covered(accuracy_.facets) && static_cast<double>(live_count()) < most;
+  return !growth_.is_limited() && !growth_.is_late() && search.covered <= most_covered(accuracy_.facets) &&
+         static_cast<double>(live_count()) < most;
 }
 
 /// Facets no wider than this over all points. No planes: growth would have to go on further than it may.
 Covering Approximation::hold_width(double width, double outside_width, double share, CountSearch& search) {
-  HullFacets known;
-  known.width = width;
   for (int round = 0;; ++round) {
     make_space(true);
     const bool may_grow = may_grow_held(search, share) && round < kHoldRounds;
@@ -63,23 +61,15 @@ Covering Approximation::hold_width(double width, double outside_width, double sh
     Covering covering = slabs ? covering_of(*slabs, *space_)
                               : SlabCover(growth_.work().complex, *space_, is_convex())
                                     .cover(width, CoverEffort{.final_fit_steps = 0});
-    close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), may_grow ? &known : nullptr,
-                          covering);
-    std::vector<LocatedPoint> above;
-    if (!may_grow || known.missing.empty()) {
-      const TrueWidths widths = true_widths(covering);
-      if (widths.widest() <= width) return covering;
-      above = add_offenders(covering, widths, width).above_simplices;
-      if (!may_grow || above.empty()) return Covering{};
-    }
+    close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), nullptr, covering);
+    const TrueWidths widths = true_widths(covering);
+    if (widths.widest() <= width) return covering;
+    const std::vector<LocatedPoint> above = add_offenders(covering, widths, width).above_simplices;
+    if (!may_grow || above.empty()) return Covering{};
     search.narrowest = Covering{};
-    if (above.empty()) {
-      take_in(known.missing);
-    } else {
-      growth_.put_back(above);
-      while (growth_.furthest_height() > width && may_grow_held(search, share))
-        if (growth_.grow_to(outside_width, live_count() + kGrownAtOnce, HUGE_VAL)) break;
-    }
+    growth_.put_back(above);
+    while (growth_.furthest_height() > width && may_grow_held(search, share))
+      if (growth_.grow_to(outside_width, live_count() + kGrownAtOnce, HUGE_VAL)) break;
     locate_left_out(outside_width);
   }
 }
