@@ -126,10 +126,11 @@ class Approximation {
     double slab = 0.0;    // in the hull that is wanted, about
   };
   SlabGuess guess_slab(std::uint64_t count, CountSearch& search);
-  bool leaves_out_far_above(double width);
   bool may_grow_held(const CountSearch& search, double share);
-  Covering hold_width(double width, double outside_width, double share, CountSearch& search);
-  void search_held(std::uint64_t count, double first_width, double outside_width, CountSearch& search);
+  std::optional<Covering> hold_width(double width, double outside_width, double share, bool only_if_far,
+                                     CountSearch& search);
+  void search_held(std::uint64_t count, double first_width, double outside_width, bool only_if_far,
+                   CountSearch& search);
   void foresee_coverings(double seconds_at_first, const CountSearch& search);
   double consider(const Covering& covering, double slab, CountSearch& search);
   void close_and_join(Covering& covering, double width, bool joins) const;

@@ -332,8 +332,7 @@ FacetClusters Approximation::run_count() {
     return FacetClusters{};       // the exact hull it is
   search.narrowest = Covering{};  // of the coarse hull
   bool is_better_search = false, is_from_wide = false;
-  if (!is_given && leaves_out_far_above(guess.coarse))
-    search_held(count, guess.coarse, outside_width, search);
+  if (!is_given) search_held(count, guess.coarse, outside_width, true, search);
   const bool is_held = search.has_any();
   for (int round = 1; !is_held && (!search.has_any() || !growth_.is_late()); ++round) {
     make_space(true);

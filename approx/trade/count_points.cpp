@@ -70,7 +70,7 @@ std::vector<PointId> Approximation::points_far_above(std::span<const std::uint32
 void Approximation::cover_again(std::uint64_t count, double width, double outside_width,
                                 CountSearch& search) {
   const double before = search.has_any() ? search.width : HUGE_VAL;
-  search_held(count, width, outside_width, search);
+  search_held(count, width, outside_width, false, search);
   if (search.has_any() && search.width < before)
     balance_facets(count, Covering(search.narrowest), search.slab, kTurnsOfRound, search);
   if (!search.has_any())

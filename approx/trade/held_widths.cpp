@@ -12,7 +12,6 @@
 
 #include "approx/trade/approximation.h"
 #include "approx/trade/count_limits.h"
-#include "approx/trade/region_closing.h"
 
 namespace ndhull {
 namespace {
@@ -32,17 +31,6 @@ constexpr double kSteep = 1.5, kShortestStep = 0.02, kLongestStep = 0.25, kStepW
 
 }  // namespace
 
-/// Are points left out so far above simplices that these alone are much wider than slabs of this width?
-bool Approximation::leaves_out_far_above(double width) {
-  if (growth_.is_limited() || growth_.is_late() || growth_.furthest_height() < kFarOutside * width)
-    return false;
-  make_space(true);
-  FacetLimit no_limit;
-  const std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
-  return slabs && slabs->unfit > 0 &&
-         true_widths(covering_of(*slabs, *space_)).widest() > kFarTooWide * width;
-}
-
 /// Is there room and time for growth to go on? A part of the room is left for the widths after the first.
 bool Approximation::may_grow_held(const CountSearch& search, double share) {
   const double most = share * static_cast<double>(std::min(kMostHeld, affordable_rows_));
@@ -51,17 +39,22 @@ bool Approximation::may_grow_held(const CountSearch& search, double share) {
 }
 
 /// Facets no wider than this over all points. No planes: growth would have to go on further than it may.
-Covering Approximation::hold_width(double width, double outside_width, double share, CountSearch& search) {
+/// Nothing: `only_if_far`, and no simplex alone is much wider than the slabs.
+std::optional<Covering> Approximation::hold_width(double width, double outside_width, double share,
+                                                  bool only_if_far, CountSearch& search) {
   for (int round = 0;; ++round) {
     make_space(true);
     const bool may_grow = may_grow_held(search, share) && round < kHoldRounds;
     FacetLimit no_limit;
     std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
     search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
+    const bool is_asked = only_if_far && round == 0;
+    if (is_asked && (!slabs || slabs->unfit == 0)) return std::nullopt;
     Covering covering = slabs ? covering_of(*slabs, *space_)
                               : SlabCover(growth_.work().complex, *space_, is_convex())
                                     .cover(width, CoverEffort{.final_fit_steps = 0});
-    close_open_directions(growth_.work().complex, *space_, growth_.coordinates(), nullptr, covering);
+    if (is_asked && true_widths(covering).widest() <= kFarTooWide * width) return std::nullopt;
+    close_and_join(covering, width, false);
     const TrueWidths widths = true_widths(covering);
     if (widths.widest() <= width) return covering;
     const std::vector<LocatedPoint> above = add_offenders(covering, widths, width).above_simplices;
@@ -75,10 +68,13 @@ Covering Approximation::hold_width(double width, double outside_width, double sh
 }
 
 /// The least width held by at most `count` facets, about, from a first one on. Leaves the narrowest.
+/// `only_if_far`: nothing is looked for where no point is so far above a simplex that this is much wider alone
+/// than slabs of the first width.
 void Approximation::search_held(std::uint64_t count, double first_width, double outside_width,
-                                CountSearch& search) {
+                                bool only_if_far, CountSearch& search) {
+  if (only_if_far && (growth_.is_limited() || growth_.furthest_height() < kFarOutside * first_width)) return;
   const double wanted = std::log(static_cast<double>(count));
-  double power = kSteep * 0.5 * (static_cast<double>(space_->rank()) - 1.0);
+  double power = kSteep * 0.5 * (static_cast<double>(growth_.work().rank) - 1.0);
   struct Held {
     double log_width, log_count;
   };
@@ -86,7 +82,9 @@ void Approximation::search_held(std::uint64_t count, double first_width, double 
   double log_width = std::log(first_width), share = kShareAtFirst;
   for (int trial = 0; trial < kWidths && !growth_.is_late(); ++trial) {
     const double width = std::exp(log_width);
-    Covering covering = hold_width(width, outside_width, share, search);
+    std::optional<Covering> held = hold_width(width, outside_width, share, only_if_far && trial == 0, search);
+    if (!held) return;
+    Covering& covering = *held;
     share = std::min(1.0, share + kShareMore);
     if (covering.planes.size() > count && covering.planes.size() <= 2 * count &&
         is_worth_joining(count, live_count()))
