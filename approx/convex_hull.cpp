@@ -58,7 +58,7 @@ Hull hull_of_reduced(const ReducedPoints& reduced, const PointShards& shards, Hu
                      Clock::time_point start, std::optional<BegunHull> begun) {
   const double seconds = seconds_since(start);
   for (std::uint64_t* most : {&options.limits.max_memory_bytes, &options.limits.machine_memory_bytes})
-    if (*most > reduced.bytes()) *most -= reduced.bytes();
+    *most = limit_left(*most, reduced.bytes());
   const PointView view = reduced.view();
   const bool goes_on = begun && may_go_on(*begun, options) && begun->rename_points(reduced.ids());
   if (!goes_on) begun.reset();  // its memory is wanted

@@ -1,6 +1,7 @@
 // The main call: points in, certified facets out.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,12 @@ struct Limits {
   bool has_any() const { return max_facets > 0 || max_seconds > 0.0 || max_memory_bytes > 0; }
   std::uint64_t most_memory() const { return max_memory_bytes > 0 ? max_memory_bytes : machine_memory_bytes; }
 };
+
+/// What is left of a limit on bytes when so many are used: at least an eighth of it, with which a hull of
+/// some thousand simplices is had where the input alone takes more. 0, which is no limit, stays 0.
+constexpr std::uint64_t limit_left(std::uint64_t limit, std::uint64_t used) {
+  return std::max(limit > used ? limit - used : 0, limit / 8);
+}
 
 /// The phases of one run, in order; the report, the progress line and the benchmarks use these names.
 enum class Phase { kGrowth, kCertify, kMerge, kCount };
@@ -101,7 +108,10 @@ struct AccuracyChosen {
   double slab_width = 0.0;     ///< facets were sought within slabs of this width; 0: not by slabs
   double width_cap = 0.0;      ///< 0: none was needed
   double width_asked = 0.0;    ///< the target width, else W; 0: neither was asked for
-  std::uint64_t merges = 0, refused_merges = 0;
+  std::uint64_t merges = 0;
+  /// Of pairs: those that would have been too wide or left no hull. Of slabs: simplices that stay facets since
+  /// they close the region, and coverings given up since they left no hull.
+  std::uint64_t refused_merges = 0;
 };
 
 /// How far growth was at some time: what an earlier end would have given.

@@ -59,10 +59,12 @@ Hull HullBuilder::run(BegunHull* begun) {
   } else {
     const bool has_room = approximate(factor);
     if (growth_->is_found_otherwise())
-      return take_described() ? std::move(hull_) : again(options_, {.has_tried_exact = true});
+      return take_described()
+                 ? std::move(hull_)
+                 : again(options_, {.has_run_out = earlier_.has_run_out, .has_tried_exact = true});
     if (wants_exact_first_) return exact_first(lengths);
     if (growth_->is_too_rough()) return with_larger_shift();
-    if (!has_room) return again(options_, {.has_run_out = true});
+    if (!has_room) return again(options_, {.has_run_out = true, .has_tried_exact = earlier_.has_tried_exact});
     if (star_hull_) {
       adopt(std::move(*star_hull_));
       return std::move(hull_);
@@ -196,7 +198,7 @@ Hull HullBuilder::exact_first(const ResolvedAccuracy& lengths) {
   Hull exact = with(Accuracy(), lengths, kMostSimplices, may_join ? options_.accuracy.facets : 0);
   const bool is_few = exact.facet_count() <= options_.accuracy.facets;
   if (exact.status == HullStatus::kComplete && is_few) return exact;
-  return again(options_, {.has_tried_exact = true});
+  return again(options_, {.has_run_out = earlier_.has_run_out, .has_tried_exact = true});
 }
 
 /// Less than what was asked for, which is what the report compares widths with.
@@ -215,7 +217,7 @@ Hull HullBuilder::with(const Accuracy& accuracy, const ResolvedAccuracy& lengths
 Hull HullBuilder::for_width_instead() {
   HullOptions options = options_;
   options.accuracy.objective = FacetObjective::kWidth;
-  return again(options);
+  return again(options, earlier_);
 }
 
 /// Has memory ended growth, and are the simplices, for which it went, far wider than points are above them?
@@ -246,7 +248,7 @@ Hull HullBuilder::narrow_instead(const ResolvedAccuracy& lengths) {
 Hull HullBuilder::with_larger_shift() {
   HullOptions options = options_;
   options.shift *= 10.0;
-  return again(options);
+  return again(options, earlier_);
 }
 
 /// Whole facets are looked for while growth goes on, for an exact hull or a target that few of them may meet.

@@ -72,7 +72,7 @@ class HullBuilder {
   void make_facets(const KnownHighest& known);
   void certify_facets(const KnownHighest& known, const IdRows* merged_vertices);
 
-  Hull again(const HullOptions& options, EarlierRun earlier = {});
+  Hull again(const HullOptions& options, EarlierRun earlier);
   Hull exact_first(const ResolvedAccuracy& lengths);
   Hull with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets,
             std::uint64_t joined_to = 0);

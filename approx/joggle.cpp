@@ -48,19 +48,28 @@ std::string brief(double value) {
   return text;
 }
 
-/// The furthest that a row of `joggled` is from its point. The differences of nearby doubles are exact; the
-/// factor covers the rounding of squares, sum and root.
+/// The furthest that a row of `joggled` is from its point. Steps are in parts of the longest, as a power of
+/// two, since squares of tiny ones are 0; the factor covers the rounding of differences, squares, sum and root.
 double furthest_moved(const PointView& points, const std::vector<double>& joggled) {
+  const auto step = [&](std::size_t row, std::size_t k) {
+    return joggled[row * points.dimension + k] - points.at(row, k);
+  };
+  double longest = 0.0;
+  for (std::size_t row = 0; row < points.rows; ++row)
+    for (std::size_t k = 0; k < points.dimension; ++k) longest = std::max(longest, std::abs(step(row, k)));
+  if (longest == 0.0) return 0.0;
+  const int exponent = std::ilogb(longest);
   double furthest_sq = 0.0;
   for (std::size_t row = 0; row < points.rows; ++row) {
     double sum = 0.0;
     for (std::size_t k = 0; k < points.dimension; ++k) {
-      const double step = joggled[row * points.dimension + k] - points.at(row, k);
-      sum += step * step;
+      const double part = std::ldexp(step(row, k), -exponent);
+      sum += part * part;
     }
     furthest_sq = std::max(furthest_sq, sum);
   }
-  return std::sqrt(furthest_sq) * (1.0 + static_cast<double>(points.dimension + 4) * kUnit);
+  const double furthest = std::sqrt(furthest_sq) * (1.0 + static_cast<double>(points.dimension + 4) * kUnit);
+  return std::ldexp(furthest, exponent);
 }
 
 /// Of which coordinates move; `roundoff`: of the points.

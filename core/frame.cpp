@@ -30,8 +30,8 @@ void find_column_ranges(const PointView& points, Frame& frame) {
     for (std::size_t column = 0; column < points.dimension; ++column) {
       const double x = static_cast<double>(data[row * points.row_stride + column * points.column_stride]);
       if (!std::isfinite(x)) {
-        throw Error(ErrorCode::kNotFinite, "row " + std::to_string(row) + ", column " +
-                                               std::to_string(column) + ": found " + std::to_string(x) +
+        throw Error(ErrorCode::kNotFinite, "element [" + std::to_string(row) + ", " + std::to_string(column) +
+                                               "]: found " + std::to_string(x) +
                                                ", expected a finite number; remove or repair the row");
       }
       frame.column_min[column] = std::min(frame.column_min[column], x);
@@ -86,8 +86,8 @@ double worst_shape(const Matrix& vertices, double reach = 0.0) {
   return worst;
 }
 
-/// Orthonormal directions, in input units, of the subspace that `directions` (rank x dimension, orthonormal
-/// in scaled coordinates) span.
+/// Independent directions of length 1, in input units, that span what `directions` (rank x dimension,
+/// orthonormal in scaled coordinates) span; nearly orthogonal.
 ///
 /// Where axes differ by many orders of magnitude all directions are nearly parallel to the longest axis in
 /// input units, and orthogonalising them would lose the rest. Elimination first, in scaled coordinates: each
@@ -151,6 +151,105 @@ Matrix regular_simplex(Eigen::Index rank) {
   return vertices;
 }
 
+/// Columns about their middles, times powers of two: extents near 1.
+struct ScaledColumns {
+  Vector scale, middle;
+  double tolerance = 0.0;  // what is nearer to an affine span is so by the rounding of the input
+};
+
+ScaledColumns scale_columns(const Frame& frame) {
+  ScaledColumns columns{Vector(frame.dimension), Vector(frame.dimension)};
+  double largest = 1.0;  // coordinate, in scaled units
+  for (std::size_t k = 0; k < frame.dimension; ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const double low = frame.column_min[k], high = frame.column_max[k];
+    columns.scale[at] = column_scale(low, high);
+    columns.middle[at] = 0.5 * low + 0.5 * high;
+    largest = std::max(largest, columns.scale[at] * std::max(std::abs(low), std::abs(high)));
+  }
+  columns.tolerance = 8.0 * static_cast<double>(frame.dimension) * kRoundoff * (1.0 + largest);
+  return columns;
+}
+
+/// Greedily of every step-th point.
+GreedySimplex simplex_of_some(const PointView& points, std::size_t step, const ScaledColumns& columns) {
+  PointView some = points;
+  some.rows = (points.rows + step - 1) / step;
+  some.row_stride *= step;
+  GreedySimplex chosen = choose_simplex(some, {columns.middle.data(), points.dimension},
+                                        {columns.scale.data(), points.dimension}, columns.tolerance);
+  for (PointId& id : chosen.points) id.value *= static_cast<std::uint32_t>(step);
+  return chosen;
+}
+
+/// Spans the whole space, and is well shaped beside the extent of all points.
+bool is_good_simplex(const PointView& points, const GreedySimplex& simplex, const ScaledColumns& columns) {
+  const std::size_t dimension = points.dimension;
+  if (simplex.points.size() <= dimension) return false;
+  Matrix vertices(dimension + 1, dimension);
+  for (std::size_t row = 0; row <= dimension; ++row) {
+    for (std::size_t k = 0; k < dimension; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      vertices(static_cast<Eigen::Index>(row), at) =
+          (points.at(simplex.points[row].value, k) - columns.middle[at]) * columns.scale[at];
+    }
+  }
+  // No scaled coordinate is more than 1 from the middle.
+  return worst_shape(vertices, 2.0 * std::sqrt(static_cast<double>(dimension))) <= kSampleShape;
+}
+
+GreedySimplex choose_frame_simplex(const PointView& points, const ScaledColumns& columns) {
+  GreedySimplex simplex;
+  if (points.rows > kManyPoints) simplex = simplex_of_some(points, points.rows / kFrameSample, columns);
+  if (!is_good_simplex(points, simplex, columns)) simplex = simplex_of_some(points, 1, columns);
+  return simplex;
+}
+
+void set_centre(const PointView& points, Frame& frame) {
+  frame.centre.assign(points.dimension, 0.0);
+  for (const PointId id : frame.simplex) {
+    const double weight = 1.0 / static_cast<double>(frame.simplex.size());
+    for (std::size_t k = 0; k < points.dimension; ++k) frame.centre[k] += weight * points.at(id.value, k);
+  }
+  if (frame.rank == 0) points.copy_row(0, frame.centre.data());
+}
+
+/// The scaling alone, of columns that vary or along the simplex' directions.
+Matrix map_of_scaling(const Vector& scale, const Eigen::Map<const Matrix>& directions, Frame& frame) {
+  const auto varying = static_cast<Eigen::Index>((scale.array() != 0.0).count());
+  if (varying != directions.rows()) return directions * scale.asDiagonal();
+  frame.is_diagonal = true;
+  Matrix map = Matrix::Zero(directions.rows(), directions.cols());
+  for (Eigen::Index column = 0, row = 0; column < map.cols(); ++column)
+    if (scale[column] != 0.0) map(row++, column) = scale[column];
+  return map;
+}
+
+/// The map that makes the frame's simplex regular instead, where it is not well shaped.
+void make_regular(const PointView& points, Matrix& map, Frame& frame) {
+  const Eigen::Index rank = map.rows();
+  Matrix vertices(rank + 1, map.cols());
+  for (Eigen::Index row = 0; row <= rank; ++row) {
+    for (Eigen::Index k = 0; k < map.cols(); ++k) {
+      vertices(row, k) =
+          points.at(frame.simplex[static_cast<std::size_t>(row)].value, static_cast<std::size_t>(k)) -
+          frame.centre[static_cast<std::size_t>(k)];
+    }
+  }
+  const Matrix mapped = vertices * map.transpose();
+  if (worst_shape(mapped) <= kWellShaped) return;
+  // Edges of the simplex to those of the regular one: y = T z with T edges = regular edges.
+  const Matrix regular = regular_simplex(rank);
+  Matrix edges(rank, rank), regular_edges(rank, rank);
+  for (Eigen::Index row = 0; row < rank; ++row) {
+    edges.row(row) = mapped.row(row + 1) - mapped.row(0);
+    regular_edges.row(row) = regular.row(row + 1) - regular.row(0);
+  }
+  const Matrix transposed = edges.fullPivLu().solve(regular_edges);
+  map = (transposed.transpose() * map).eval();
+  frame.is_diagonal = false;
+}
+
 }  // namespace
 
 void check_shape(const PointView& points) {
@@ -189,95 +288,21 @@ void check_extents(const Frame& frame) {
 Frame fit_frame(const PointView& points) {
   check_shape(points);
   Frame frame;
-  const std::size_t dimension = points.dimension;
-  frame.dimension = dimension;
+  frame.dimension = points.dimension;
   set_column_ranges(points, frame);
-
-  Vector scale(dimension), middle(dimension);
-  double input_rounding = 1.0;  // [ratio] largest coordinate in scaled units: rounding of the input itself
-  for (std::size_t k = 0; k < dimension; ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    scale[at] = column_scale(frame.column_min[k], frame.column_max[k]);
-    middle[at] = 0.5 * frame.column_min[k] + 0.5 * frame.column_max[k];
-    input_rounding = std::max(
-        input_rounding, scale[at] * std::max(std::abs(frame.column_min[k]), std::abs(frame.column_max[k])));
-  }
-  const double tolerance = 8.0 * static_cast<double>(dimension) * kRoundoff * (1.0 + input_rounding);
-  // Of every step-th point.
-  const auto simplex_of = [&](std::size_t step) {
-    PointView some = points;
-    some.rows = (points.rows + step - 1) / step;
-    some.row_stride *= step;
-    GreedySimplex chosen =
-        choose_simplex(some, {middle.data(), dimension}, {scale.data(), dimension}, tolerance);
-    for (PointId& id : chosen.points) id.value *= static_cast<std::uint32_t>(step);
-    return chosen;
-  };
-  const auto is_good = [&](const GreedySimplex& chosen) {
-    if (chosen.points.size() <= dimension) return false;
-    Matrix vertices(dimension + 1, dimension);
-    for (std::size_t row = 0; row <= dimension; ++row) {
-      for (std::size_t k = 0; k < dimension; ++k) {
-        const auto at = static_cast<Eigen::Index>(k);
-        vertices(static_cast<Eigen::Index>(row), at) =
-            (points.at(chosen.points[row].value, k) - middle[at]) * scale[at];
-      }
-    }
-    // No scaled coordinate is more than 1 from the middle.
-    return worst_shape(vertices, 2.0 * std::sqrt(static_cast<double>(dimension))) <= kSampleShape;
-  };
-  GreedySimplex simplex;
-  if (points.rows > kManyPoints) simplex = simplex_of(points.rows / kFrameSample);
-  if (!is_good(simplex)) simplex = simplex_of(1);
+  const ScaledColumns columns = scale_columns(frame);
+  const GreedySimplex simplex = choose_frame_simplex(points, columns);
   frame.simplex = simplex.points;
   frame.rank = simplex.points.size() - 1;
-
-  frame.centre.assign(dimension, 0.0);
-  for (const PointId id : frame.simplex) {
-    const double weight = 1.0 / static_cast<double>(frame.simplex.size());
-    for (std::size_t k = 0; k < dimension; ++k) frame.centre[k] += weight * points.at(id.value, k);
-  }
-  if (frame.rank == 0) points.copy_row(0, frame.centre.data());
+  set_centre(points, frame);
   if (frame.rank == 0) return frame;
-
-  const auto rank = static_cast<Eigen::Index>(frame.rank);
-  const auto columns = static_cast<Eigen::Index>(dimension);
-  const Eigen::Map<const Matrix> directions(simplex.directions.data(), rank, columns);
-  Matrix map = Matrix::Zero(rank, columns);
-  const auto varying = static_cast<std::size_t>((scale.array() != 0.0).count());
-  if (varying == frame.rank) {
-    for (Eigen::Index column = 0, row = 0; column < columns; ++column) {
-      if (scale[column] != 0.0) map(row++, column) = scale[column];
-    }
-    frame.is_diagonal = true;
-  } else {
-    map = directions * scale.asDiagonal();
-  }
-  Matrix vertices(rank + 1, columns);
-  for (Eigen::Index row = 0; row <= rank; ++row) {
-    for (Eigen::Index k = 0; k < columns; ++k) {
-      vertices(row, k) =
-          points.at(frame.simplex[static_cast<std::size_t>(row)].value, static_cast<std::size_t>(k)) -
-          frame.centre[static_cast<std::size_t>(k)];
-    }
-  }
-  const Matrix mapped = vertices * map.transpose();
-  if (worst_shape(mapped) > kWellShaped) {
-    // Edges of the simplex to those of the regular one: y = T z with T edges = regular edges.
-    const Matrix regular = regular_simplex(rank);
-    Matrix edges(rank, rank), regular_edges(rank, rank);
-    for (Eigen::Index row = 0; row < rank; ++row) {
-      edges.row(row) = mapped.row(row + 1) - mapped.row(0);
-      regular_edges.row(row) = regular.row(row + 1) - regular.row(0);
-    }
-    const Matrix transposed = edges.fullPivLu().solve(regular_edges);
-    map = (transposed.transpose() * map).eval();
-    frame.is_diagonal = false;
-  }
+  const Eigen::Map<const Matrix> directions(simplex.directions.data(), static_cast<Eigen::Index>(frame.rank),
+                                            static_cast<Eigen::Index>(frame.dimension));
+  Matrix map = map_of_scaling(columns.scale, directions, frame);
+  make_regular(points, map, frame);
   frame.map.assign(map.data(), map.data() + map.size());
-
-  if (frame.rank < dimension) {
-    const Matrix basis = directions_in_input_units(directions, scale);
+  if (frame.rank < frame.dimension) {
+    const Matrix basis = directions_in_input_units(directions, columns.scale);
     frame.basis.assign(basis.data(), basis.data() + basis.size());
   }
   return frame;

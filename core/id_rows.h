@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/ids.h"
+
 namespace ndhull {
 
 /// Rows of ids of different lengths in one array: row r is values[begin[r] .. begin[r + 1]).
@@ -28,7 +30,7 @@ struct IdRows {
     end_row();
   }
   /// Values that were added behind the last row become one.
-  void end_row() { begin.push_back(static_cast<std::uint32_t>(values.size())); }
+  void end_row() { begin.push_back(narrow_id(values.size())); }
 };
 
 /// Values as ids of a kind, which are one such value each.

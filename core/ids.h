@@ -3,12 +3,21 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+
+#include "core/error.h"
 
 namespace ndhull {
 
 /// A number among ids and rows that stands for none.
 inline constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
+
+/// A place in a table of at most 2^32 - 1 entries.
+inline std::uint32_t narrow_id(std::size_t place) {
+  NDHULL_CHECK(place < kNone);
+  return static_cast<std::uint32_t>(place);
+}
 
 /// Index into one kind of table. Kinds never mix; a default Id is "none".
 template <class Tag>

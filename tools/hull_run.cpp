@@ -140,9 +140,8 @@ double seconds_left(const Limits& limits, Clock::time_point start) {
 
 /// What is left of the limits since then, or what the machine has.
 Limits limits_left(Limits limits, Clock::time_point start) {
-  const std::uint64_t bytes = resident_memory_bytes();
   limits.max_seconds = seconds_left(limits, start);
-  if (limits.max_memory_bytes > bytes) limits.max_memory_bytes -= bytes;
+  limits.max_memory_bytes = limit_left(limits.max_memory_bytes, resident_memory_bytes());
   limits.machine_memory_bytes = memory_of_machine();
   return limits;
 }

@@ -14,6 +14,7 @@
 #include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
 #include "tools/command_line/progress_line.h"
+#include "tools/command_line/warnings.h"
 #include "tools/io/halfspace_numbers.h"
 #include "tools/io/halfspace_reader.h"
 #include "tools/io/intersection_writer.h"
@@ -130,10 +131,8 @@ int run_intersect(const IntersectRequest& request) {
   }
   if (!request.quiet && !use_standard_output(outputs)) {
     write_text("-", intersection_summary(intersection, request.halfspaces_path));
-  } else if (!request.quiet && has_vertices && intersection.status != HullStatus::kComplete) {
-    fmt::print(stderr,
-               "ndhull: warning: {}: vertices are missing, the intersection is inside those written\n",
-               to_string(intersection.status));
+  } else if (!request.quiet && has_vertices) {
+    warn_of_missing_vertices(intersection.status);
   }
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }

@@ -39,11 +39,7 @@ bool HullDescription::advance(std::uint64_t work) {
   return measure(work);
 }
 
-std::uint64_t HullDescription::simplex_count() const {
-  std::uint64_t count = 0;
-  for (const std::uint32_t face : hull_.faces.facets) count += hull_.faces.faces[face].simplices;
-  return count;
-}
+std::uint64_t HullDescription::simplex_count() const { return count_simplices(hull_.faces); }
 
 /// Facets first. Returns true when they are all there.
 bool HullDescription::grow(std::uint64_t work) {

@@ -25,7 +25,8 @@ bool shares_planes(const GrowthWork& work, const double* points);
 /// May coplanar merging leave no more than `most` facets? A sample tells: the number of facets is the sum of
 /// one over the size of its facet over all simplices.
 ///
-/// Returns   false  where the mean of the sample is far above that, by three standard errors.
+/// Returns   false  where less than a quarter of the vertices were moved inwards, or the mean of the sample is
+///                  far above that, by three standard errors.
 /// Cost      looks at 16,384 simplices at most: facets of 64 and more count for nothing.
 bool may_be_few_facets(const GrowthWork& work, const double* points, std::uint64_t most);
 

@@ -143,6 +143,11 @@ double distance_off_subspace(const PointView& points, const Frame& frame) {
   const std::vector<double> equations = find_subspace_equations(frame);
   const std::size_t columns = frame.dimension + 1;
   std::vector<double> point(frame.dimension);
+  double extent = 0.0;
+  for (std::size_t k = 0; k < frame.dimension; ++k)
+    extent = std::max(extent, frame.column_max[k] - frame.column_min[k]);
+  // In parts of the extent: squares of tiny distances are 0.
+  const int exponent = extent > 0.0 ? std::ilogb(extent) : 0;
   double furthest_sq = 0.0;
   for (std::size_t id = 0; id < points.rows && !equations.empty(); ++id) {
     points.copy_row(id, point.data());
@@ -150,12 +155,12 @@ double distance_off_subspace(const PointView& points, const Frame& frame) {
     for (std::size_t at = 0; at < equations.size(); at += columns) {
       double distance = 0.0;  // the centre is in the subspace
       for (std::size_t k = 0; k < frame.dimension; ++k)
-        distance += equations[at + k] * (point[k] - frame.centre[k]);
+        distance += equations[at + k] * std::ldexp(point[k] - frame.centre[k], -exponent);
       distance_sq += distance * distance;
     }
     furthest_sq = std::max(furthest_sq, distance_sq);
   }
-  return std::sqrt(furthest_sq);
+  return std::ldexp(std::sqrt(furthest_sq), exponent);
 }
 
 bool is_roughly_flat(const PointView& points, const Frame& frame) {

@@ -113,8 +113,10 @@ bool try_hull(const PointView& points, const LargestOptions& options, Clock::tim
                        std::to_string(now.points_left) + " points left");
     };
   }
+  const double before = seconds_since(start);
   const Hull hull = convex_hull(points, hull_options);
   if (!must && hull.status != HullStatus::kComplete) return false;
+  result.search_seconds = before + hull.statistics.seconds[static_cast<std::size_t>(Phase::kGrowth)];
   take_from_hull(hull, options, result);
   return true;
 }
@@ -184,7 +186,7 @@ LargestFacets largest_facets(const PointView& points, const LargestOptions& opti
         is_done = options.method == LargestMethod::kAuto && search.may_be_built(kAutoFacets) &&
                   try_hull(points, options, start, result);
         if (!is_done) search.run(result);
-        result.search_seconds = seconds_since(start);
+        if (!is_done) result.search_seconds = seconds_since(start);
         if (!is_done) search.certify(points, result);
       }
     }

@@ -25,6 +25,10 @@ constexpr double kWellWithin = 0.99;
 /// Points that are this little outside the others' hull are no vertices (extreme_points). [ratio]
 constexpr double kVertexRounding = 4e-12;
 
+/// A power of two, about the largest of some coordinates: in such units squares are neither 0 nor infinite.
+double unit_of(double largest) { return largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0; }
+
+/// In input units, about the centre.
 Eigen::MatrixXd gather_columns(const PointView& points, std::span<const PointId> ids,
                                std::span<const double> centre) {
   Eigen::MatrixXd columns(static_cast<Index>(points.dimension), static_cast<Index>(ids.size()));
@@ -43,11 +47,14 @@ class Chooser {
           const KeepOptions& options)
       : vertices_(vertices),
         columns_(gather_columns(points, vertices, centre)),
+        unit_(unit_of(columns_.cwiseAbs().maxCoeff())),
         kept_(columns_.leftCols(static_cast<Index>(options.given))),
         found_(vertices.size()),
         is_current_(vertices.size(), false),
         is_kept_(vertices.size(), false),
-        enough_(options.enough) {
+        enough_(options.enough / unit_) {
+    columns_ /= unit_;
+    kept_ /= unit_;
     size_ = std::sqrt(columns_.colwise().squaredNorm().maxCoeff());
     const auto first = static_cast<std::uint32_t>(options.given);
     for (std::uint32_t row = first; row < vertices_.size(); ++row) queue_.push({HUGE_VAL, row});
@@ -117,15 +124,17 @@ class Chooser {
     });
   }
 
+  /// In `unit`s.
   const HullDistance& distance(std::size_t vertex) const { return found_[vertex]; }
+  double vertex_rounding() const { return kVertexRounding * size_; }
+  /// [input units]
+  double unit() const { return unit_; }
   std::vector<double> distances() const {
     std::vector<double> distances(found_.size());
     std::transform(found_.begin(), found_.end(), distances.begin(),
-                   [](const HullDistance& known) { return known.upper; });
+                   [this](const HullDistance& known) { return known.upper * unit_; });
     return distances;
   }
-  double vertex_rounding() const { return kVertexRounding * size_; }
-  double size() const { return size_; }
 
  private:
   struct Entry {
@@ -137,7 +146,8 @@ class Chooser {
   };
 
   std::span<const PointId> vertices_;
-  Eigen::MatrixXd columns_;  // about the centre
+  Eigen::MatrixXd columns_;  // about the centre; all lengths are in units
+  double unit_;
   Eigen::MatrixXd kept_;
   std::vector<HullDistance> found_;
   std::vector<std::uint8_t> is_current_, is_kept_;  // is_kept_: not of those given
@@ -176,12 +186,12 @@ KeptPoints keep_points(const PointView& points, std::span<const PointId> vertice
     result.points.push_back(vertices[next]);
     next = chooser.furthest();
     const HullDistance& furthest = chooser.distance(next);
-    last_distance = std::min(last_distance, furthest.upper + chooser.vertex_rounding());
+    last_distance = std::min(last_distance, (furthest.upper + chooser.vertex_rounding()) * chooser.unit());
     result.distances.push_back(last_distance);
-    result.lower = furthest.lower;
+    result.lower = furthest.lower * chooser.unit();
     if (result.points.size() >= std::min(options.count, vertices.size())) break;
     // Not by `lower`: where the hull is flat 0 is often all that is proven of a point outside.
-    const double enough = std::max(options.enough, chooser.vertex_rounding());
+    const double enough = std::max(options.enough / chooser.unit(), chooser.vertex_rounding());
     if (furthest.upper <= enough || options.stop.stop_requested()) break;
     if (options.progress) {
       options.progress("kept " + std::to_string(result.points.size()) + ", distance " +
@@ -197,14 +207,19 @@ std::vector<double> distances_from_hull(const PointView& points, std::span<const
                                         std::span<const double> centre) {
   check_centre(points, centre);
   if (hull.empty()) throw Error(ErrorCode::kEmptyInput, "hull: found no points, expected one or more");
-  const Eigen::MatrixXd columns = gather_columns(points, hull, centre);
+  double largest = 0.0;
+  for (std::size_t row = 0; row < points.rows; ++row)
+    for (std::size_t k = 0; k < points.dimension; ++k)
+      largest = std::max(largest, std::abs(points.at(row, k) - centre[k]));
+  const double unit = unit_of(largest);
+  const Eigen::MatrixXd columns = gather_columns(points, hull, centre) / unit;
   std::vector<double> distances(points.rows);
   for_each_block(points.rows, 1, [&](std::size_t row, std::size_t) {
     Eigen::VectorXd point(static_cast<Index>(points.dimension));
     for (std::size_t k = 0; k < points.dimension; ++k) {
-      point[static_cast<Index>(k)] = points.at(row, k) - centre[k];
+      point[static_cast<Index>(k)] = (points.at(row, k) - centre[k]) / unit;
     }
-    distances[row] = hull_distance(columns, point).upper;
+    distances[row] = hull_distance(columns, point).upper * unit;
   });
   return distances;
 }

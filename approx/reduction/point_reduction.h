@@ -27,10 +27,10 @@ struct PointsToKeep {
 /// Method   A hull is grown, furthest point first, from a sample and from the points that are furthest along
 ///          many directions. What lies inside a ball that it contains is dropped, then what is more than 1e-9
 ///          inside it by barycentric coordinates in one of its simplices (core/complex/membership.h). Then the points
-///          that were furthest outside are added, the hull grows eight times as large, and the points that
-///          are left pass again.
-/// Returns  All rows where the points span less than all
-///          dimensions or are not finite: then fit_frame says what is to be said.
+///          that were furthest outside are added, the hull grows twice as large, and the points that are
+///          left pass again.
+/// Returns  All rows where the points span less than all dimensions or are not finite: then fit_frame says
+///          what is to be said.
 /// Proof    A dropped point lies in the hull of kept ones, more than 1e-9 of the way to the interior point
 ///          below its boundary: planes that bound those bound it.
 /// Shards   a point's fate depends on the whole set alone: what all processes keep is the same for any parts

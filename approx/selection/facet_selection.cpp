@@ -28,7 +28,7 @@ std::vector<bool> kept_facets(const Hull& hull, const SelectionOptions& options,
   // Areas beyond the range of doubles are the largest: a number that is none must not spoil the order.
   const auto area = [&hull](std::uint32_t id) {
     const double value = hull.area_of(FacetId{id});
-    return value >= 0.0 || value < 0.0 ? value : HUGE_VAL;
+    return std::isnan(value) ? HUGE_VAL : value;
   };
   const auto is_larger = [&area](std::uint32_t a, std::uint32_t b) {
     const double area_a = area(a), area_b = area(b);

@@ -73,6 +73,22 @@ std::span<const std::uint32_t> FacetVertices::list(const SimplicialComplex& comp
   return rows_;
 }
 
+std::vector<std::uint32_t> drop_empty_facets(Covering& covering) {
+  std::vector<std::uint32_t> new_id(covering.planes.size(), kNone);
+  for (const std::uint32_t facet : covering.facet_of)
+    if (facet != kNone) new_id[facet] = 0;
+  std::uint32_t used = 0;
+  for (std::size_t facet = 0; facet < new_id.size(); ++facet) {
+    if (new_id[facet] == kNone) continue;
+    if (used != facet) covering.planes[used] = std::move(covering.planes[facet]);
+    new_id[facet] = used++;
+  }
+  covering.planes.resize(used);
+  for (std::uint32_t& facet : covering.facet_of)
+    if (facet != kNone) facet = new_id[facet];
+  return new_id;
+}
+
 FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row) {
   FittedPlane plane;
   plane.normal.resize(space.rank());

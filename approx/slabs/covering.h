@@ -50,6 +50,9 @@ class FacetVertices {
   std::uint32_t pass_ = 0;
 };
 
+/// Drops the facets without simplices. Returns which each is now, kNone of those. Cost  O(rows).
+std::vector<std::uint32_t> drop_empty_facets(Covering& covering);
+
 /// Of a simplex that stays alone, as Covering::planes has it.
 FittedPlane own_plane(const SimplicialComplex& complex, const WidthSpace& space, std::uint32_t row);
 

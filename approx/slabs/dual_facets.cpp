@@ -73,7 +73,7 @@ void list_facets(DualFacets& facets, std::size_t member_count, std::span<const s
 }
 
 Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
-  constexpr std::size_t kFacetsAtATime = 64, kSimplicesAhead = 8;
+  constexpr std::size_t kFacetsAtATime = 64;
   const SimplicialComplex& complex = *facets.complex;
   Covering covering;
   covering.facet_of = facets.facet_of_rows();
@@ -81,11 +81,9 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
   const FacetMembers members(covering);
   struct MeasureScratch {
     PlaneFitWork work;
-    std::vector<std::uint32_t> vertices, last_facet;  // per row of the space: that met it
+    FacetVertices vertices;
   };
-  tbb::enumerable_thread_specific<MeasureScratch> scratch_of_thread([&] {
-    return MeasureScratch{{}, {}, std::vector<std::uint32_t>(space.table().count(), kNone)};
-  });
+  tbb::enumerable_thread_specific<MeasureScratch> scratch_of_thread;
   for_each_block(facets.count(), kFacetsAtATime, [&](std::size_t begin, std::size_t end) {
     MeasureScratch& scratch = scratch_of_thread.local();
     for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
@@ -96,19 +94,8 @@ Covering covering_of(const DualFacets& facets, const WidthSpace& space) {
         plane.normal = std::move(normal);
         continue;
       }
-      scratch.vertices.clear();
-      const std::span<const std::uint32_t> simplices = members.of(facet);
-      for (std::size_t i = 0; i < simplices.size(); ++i) {
-        const SimplexId later{simplices[std::min(i + kSimplicesAhead, simplices.size() - 1)]};
-        prefetch(complex.vertices(later).data(), complex.rank);
-        for (const PointId id : complex.vertices(SimplexId{simplices[i]})) {
-          const std::uint32_t row = space.row_of(id);
-          if (scratch.last_facet[row] == facet) continue;
-          scratch.last_facet[row] = facet;
-          scratch.vertices.push_back(row);
-        }
-      }
-      plane = measure_plane(space, normal, scratch.vertices, scratch.work);
+      plane = measure_plane(space, normal, scratch.vertices.list(complex, space, members.of(facet)),
+                            scratch.work);
     }
   });
   for (const FittedPlane& plane : covering.planes) covering.widest = std::max(covering.widest, plane.width());

@@ -117,15 +117,8 @@ void SlabCover::measure_facets(Covering& covering, double width, const CoverEffo
     for (std::size_t facet = begin; facet != end; ++facet)
       settle(members_of.of(facet), width, effort, covering.planes[facet]);
   });
-  std::uint32_t used = 0;
-  for (std::size_t facet = 0; facet < covering.planes.size(); ++facet) {
-    const Members members = members_of.of(facet);
-    if (members.empty()) continue;
-    for (const std::uint32_t row : members) covering.facet_of[row] = used;
-    if (used != facet) covering.planes[used] = std::move(covering.planes[facet]);
-    covering.widest = std::max(covering.widest, covering.planes[used++].width());
-  }
-  covering.planes.resize(used);
+  drop_empty_facets(covering);
+  for (const FittedPlane& plane : covering.planes) covering.widest = std::max(covering.widest, plane.width());
 }
 
 /// The plane for what a facet was left with.

@@ -346,11 +346,12 @@ std::vector<std::uint32_t> WideCover::assign_in(std::span<const std::uint32_t> c
       const std::uint32_t seed = slabs_[chosen[c]].seed;
       if (facet_of[seed] == kNone && depth_in(c, seed) != kNotIn) facet_of[seed] = first + c;
     }
-    for (std::size_t before = 0; 16 * (before - left.size()) >= before;) {
+    std::size_t before = 0;
+    do {
       before = left.size();
       std::erase_if(left, [&](std::uint32_t row) { return facet_of[row] != kNone || join_neighbour(row); });
       std::reverse(left.begin(), left.end());
-    }
+    } while (!left.empty() && 16 * (before - left.size()) >= before);
   }
   const std::vector<std::uint64_t> bits = bits_of(chosen);
   const std::size_t words = words_for(chosen.size());

@@ -29,12 +29,13 @@ struct Reach {
 /// not see makes slabs too wide. Of a coarse hull, which only says about how wide facets will be, the
 /// furthest.
 constexpr std::size_t kFewLeftOut = 1 << 17, kFewOfCoarse = 1 << 12;
-/// Facets from which on neighbours are not tried again for what fits into one slab; more where facets have
-/// few simplices each: there many fit, and large slabs leave hardly any.
-constexpr std::size_t kFewFacets = 256, kFewSmallFacets = 1024, kSmall = 30;
-/// Fewer for a width where growth has left out hardly any points, in parts of the vertices, and has taken
-/// about as long as the exact hull's; small facets where it has left out many.
+/// Up to so many facets neighbours are tried again for what fits into one slab.
+constexpr std::size_t kFewFacets = 256;
+/// The same of facets with few simplices each: many fit there, where large slabs leave hardly any.
+constexpr std::size_t kFewSmallFacets = 1024, kSmall = 30;
+/// The same for a width where growth has left out hardly any points, and took as long as the exact hull's.
 constexpr std::size_t kFewOfWholeHull = 128;
+/// Points left out, in parts of the vertices, that are many.
 constexpr double kLeftOutMany = 1.0;
 /// Disjoint slabs that hold less than this part of the mean number of simplices look for a neighbour to join.
 /// Where points were shifted all that hold less than the mean do, if it is no less than this.
@@ -338,13 +339,13 @@ FacetClusters Approximation::run_width() {
     const bool may_grow = !is_last && !growth_.is_limited();
     if (round == 0 && may_grow && !is_limited_width() && leaves_out_hardly_any(outside_width)) {
       outside_width = 0.0;
-      take_in(outside_width);
+      take_in_outside(outside_width);
       continue;
     }
     const std::vector<LocatedPoint> far =
         may_grow && round < kRoundsOfFar ? few_far_above(target) : std::vector<LocatedPoint>();
     if (!far.empty()) {
-      take_in(far, outside_width, round);
+      outside_width = take_in_far(far, outside_width, round);
       continue;
     }
     std::optional<DualFacets> slabs = find_disjoint_slabs(slab);
@@ -358,7 +359,7 @@ FacetClusters Approximation::run_width() {
     covering = cover_width(slab, std::move(slabs), may_grow ? &known : nullptr);
     if (covering.planes.empty()) return FacetClusters{};
     if (may_grow && !known.missing.empty()) {
-      take_in(known.missing);
+      take_in_alone(known.missing);
       continue;
     }
     const TrueWidths widths = true_widths(covering);
@@ -367,7 +368,7 @@ FacetClusters Approximation::run_width() {
       look_for_fewer(target, covering);
     if (widest <= target || !may_grow || !may_go_on(seconds_since(round_start))) break;
     const Offenders offenders = add_offenders(covering, widths, target);
-    take_in(offenders.above_simplices, outside_width, round);
+    outside_width = take_in_far(offenders.above_simplices, outside_width, round);
     if (offenders.widest_slab > target)
       slab = std::max(0.9 * slab, slab - 1.1 * (offenders.widest_slab - target));
   }

@@ -95,9 +95,9 @@ class Approximation {
   bool is_limited_width() const { return limit_of_width_ != HullStatus::kComplete; }
   bool leaves_out_hardly_any(double outside_width) const;
   double less_outside(double outside_width, int round) const;
-  void take_in(double outside_width);
-  void take_in(std::span<const PointId> left_out);
-  void take_in(std::span<const LocatedPoint> far, double& outside_width, int round);
+  void take_in_outside(double outside_width);
+  void take_in_alone(std::span<const PointId> left_out);
+  double take_in_far(std::span<const LocatedPoint> far, double outside_width, int round);
   /// What the search for a number of facets remembers.
   struct CountSearch {
     Covering narrowest;         // over all points, of the hull as it is now; no planes: none yet

@@ -29,8 +29,8 @@ struct JoinedFacets {
   MergeCounts counts;
 };
 
-/// merge_clusters of facets that are no sets of simplices. Planes that were not measured are: facets are in
-/// the order of their first parts.
+/// merge_clusters of facets that are no sets of simplices. Measures all planes. Facets come in the order of the
+/// first of those that each is made of.
 JoinedFacets join_facets(std::vector<FacetCorners> facets, std::vector<FittedPlane> planes,
                          const WidthSpace& space, const MergeRule& rule);
 

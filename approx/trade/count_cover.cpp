@@ -32,9 +32,11 @@ constexpr std::uint64_t kSmallHull = 50'000;
 /// Coverings of the search, and what takes off the last tenth.
 constexpr CoverEffort kPlain{.final_fit_steps = 0};
 constexpr CoverEffort kHarder{.choices = 2, .refits = 2};
-/// By how much the logarithm of the number may fall short: of a hull that goes on growing, and before facets
-/// are balanced: of coverings that take long, and of others. Further off, a step goes beyond the number.
-constexpr double kSome = 0.2, kLess = 0.1, kFairly = 0.05, kFar = 0.4;
+/// By how much the logarithm of the number may fall short: while the hull goes on growing, and before facets
+/// are balanced, of coverings that take long and of others.
+constexpr double kSlackWhileGrowing = 0.2, kSlackOfLong = 0.1, kSlackBeforeBalance = 0.05;
+/// Further off than this a step of the width goes beyond what the number asks for.
+constexpr double kFar = 0.4;
 constexpr double kAboveFurthest = 1.1;  // a first width, in parts of how far outside the furthest point is
 /// The same for a first width, and the least part of it that is left without the points left out.
 constexpr double kRoughly = 0.5, kLeastOfGuess = 0.4;
@@ -324,7 +326,7 @@ FacetClusters Approximation::run_count() {
   // A few facets that share all points, as a grid's, are found when all points are in.
   if (!is_given && !is_whole() && is_degenerate() && live_count() <= kSmallHull && !growth_.is_limited()) {
     outside_width = 0.0;
-    take_in(outside_width);
+    take_in_outside(outside_width);
     grow_for_count(count, outside_width, guess);
   }
   if (growth_.is_found_otherwise()) return FacetClusters{};
@@ -337,7 +339,9 @@ FacetClusters Approximation::run_count() {
   for (int round = 1; !is_held && (!search.has_any() || !growth_.is_late()); ++round) {
     make_space(true);
     const bool takes_long = effort.choices > 1 && live_count() > kTakesLong;
-    const double slack = !is_better_search ? kSome : takes_long ? kLess : kFairly;
+    const double slack = !is_better_search ? kSlackWhileGrowing
+                         : takes_long      ? kSlackOfLong
+                                           : kSlackBeforeBalance;
     const Covering covering = cover_count(count, effort, width, slack, search);
     if (covering.planes.empty()) {
       if (search.has_any() || is_from_wide) break;
@@ -375,7 +379,7 @@ FacetClusters Approximation::run_count() {
     is_better_search = true;
     const double more = static_cast<double>(count) / static_cast<double>(covering.planes.size());
     if (live_count() > kMostProbed && live_count() < kLarge * count) {
-      if (std::log(more) < kFairly) break;
+      if (std::log(more) < kSlackBeforeBalance) break;
     } else {
       effort = kHarder;  // it needs fewer facets: a smaller width will do
       width *= 0.97;

@@ -88,7 +88,7 @@ void Approximation::take_in_widening(std::uint64_t count, double outside_width, 
     const std::vector<PointId> points = points_far_above(simplices, search.width);
     if (points.empty()) return;
     const SimplexNames before(growth_.work().complex);
-    take_in(points);
+    take_in_alone(points);
     locate_left_out(outside_width);
     make_space(true);
     const double width = search.width, slab = search.slab;

@@ -12,7 +12,8 @@ namespace ndhull {
 /// Of more facets than this pairs are not looked at.
 inline constexpr std::size_t kMostDescribedJoined = 1024;
 
-/// The sum of determinant times |R plane| over the facets: of a hull that is not joined a multiple of its area.
+/// The sum of |R a| over the facets, a being a facet's area vector: a multiple of the area that they have
+/// projected onto their planes.
 ///
 /// Shapes  factor: rank x rank, R.
 double surface_of(const DescribedHull& hull, std::span<const double> factor);

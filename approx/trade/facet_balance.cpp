@@ -161,22 +161,15 @@ void FacetBalance::fit(std::uint32_t facet, std::span<const std::uint32_t> membe
   is_turned_[facet] = plane.normal != start.normal ? 1 : 0;
 }
 
-void FacetBalance::drop_empty(const FacetMembers& members_of) {
-  std::uint32_t used = 0;
+void FacetBalance::drop_empty() {
+  const std::vector<std::uint32_t> new_id = drop_empty_facets(covering_);
+  for (std::size_t facet = 0; facet < new_id.size(); ++facet)
+    if (new_id[facet] != kNone) is_turned_[new_id[facet]] = is_turned_[facet];
+  is_turned_.resize(covering_.planes.size());
+  is_changed_.assign(covering_.planes.size(), 0);
   covering_.widest = 0.0;
-  for (std::uint32_t facet = 0; facet < covering_.planes.size(); ++facet) {
-    const std::span<const std::uint32_t> members = members_of.of(facet);
-    if (members.empty()) continue;
-    if (used != facet) {
-      for (const std::uint32_t row : members) covering_.facet_of[row] = used;
-      covering_.planes[used] = std::move(covering_.planes[facet]);
-      is_turned_[used] = is_turned_[facet];
-    }
-    covering_.widest = std::max(covering_.widest, covering_.planes[used++].width());
-  }
-  covering_.planes.resize(used);
-  is_turned_.resize(used);
-  is_changed_.assign(used, 0);
+  for (const FittedPlane& plane : covering_.planes)
+    covering_.widest = std::max(covering_.widest, plane.width());
 }
 
 bool FacetBalance::turn() {
@@ -203,7 +196,7 @@ bool FacetBalance::turn() {
       }
     }
   });
-  drop_empty(members_of);
+  drop_empty();
   return has_changed;
 }
 

@@ -63,7 +63,7 @@ class FacetBalance {
     FacetVertices vertices;
   };
   void fit(std::uint32_t facet, std::span<const std::uint32_t> members, BalanceScratch& scratch);
-  void drop_empty(const FacetMembers& members_of);
+  void drop_empty();
   std::uint32_t deepest_of(std::span<const std::uint32_t> members, const FittedPlane& plane) const;
 
   const SimplicialComplex& complex_;

@@ -40,7 +40,7 @@ class FacetCarrier {
     keep_those_still_there();
     list_hosts();
     put_new_rows();
-    drop_empty();
+    drop_empty_facets(carried_);
     measure();
     return std::move(carried_);
   }
@@ -161,21 +161,6 @@ class FacetCarrier {
         if (place_of_[neighbour.value] != kNone) is_near_[place_of_[neighbour.value]] = 1;
     }
     return has_moved;
-  }
-
-  void drop_empty() {
-    std::vector<std::uint32_t> new_id(carried_.planes.size(), kNone);
-    for (const std::uint32_t facet : carried_.facet_of)
-      if (facet != kNone) new_id[facet] = 0;
-    std::uint32_t used = 0;
-    for (std::size_t facet = 0; facet < new_id.size(); ++facet) {
-      if (new_id[facet] == kNone) continue;
-      if (used != facet) carried_.planes[used] = std::move(carried_.planes[facet]);
-      new_id[facet] = used++;
-    }
-    carried_.planes.resize(used);
-    for (std::uint32_t& facet : carried_.facet_of)
-      if (facet != kNone) facet = new_id[facet];
   }
 
   void measure() {

@@ -10,12 +10,13 @@
 namespace ndhull {
 namespace {
 
-/// Simplices that are worth growing for an approximate hull, of which merging takes as long again: so many
-/// once nothing is further outside than half of the width, so many once three quarters will do, and so many
-/// once nearly all of it has to. The last takes a quarter of the simplices less than three quarters do, and
-/// makes a quarter of the facets more.
-constexpr std::uint64_t kEnoughAtHalf = 180'000, kManySimplices = 250'000, kVeryManySimplices = 4'000'000;
-constexpr double kHalf = 0.5, kGrowthShareAtMost = 0.75, kGrowthShareOfHuge = 0.85;
+/// Growth for a width ends where nothing is further outside than a share of it, the larger the more simplices
+/// there are: merging takes as long again. Of a hull that has the first number, the second, or more.
+constexpr std::uint64_t kEnoughAtHalf = 180'000, kManySimplices = 250'000;
+constexpr double kHalf = 0.5, kGrowthShareAtMost = 0.75;
+/// Of still more: a quarter of the simplices less than at three quarters, and a quarter of the facets more.
+constexpr std::uint64_t kVeryManySimplices = 4'000'000;
+constexpr double kGrowthShareOfHuge = 0.85;
 /// Of W alone: what is left out is no further above any simplex, where that is affordable. The outer planes
 /// of a hull come in steps, one vertex each: to be clearly below W costs 3 % more facets on 10^5 sphere
 /// points in 6-d with W 0.2, and 1 % of the width is gained.
@@ -168,7 +169,7 @@ bool Approximation::is_whole() {
 }
 
 /// Puts back what was left out and is further outside than this.
-void Approximation::take_in(double outside_width) {
+void Approximation::take_in_outside(double outside_width) {
   GrowthWork& work = growth_.work();
   work.options.outside_width = outside_width;
   std::vector<LocatedPoint> above;
@@ -184,16 +185,17 @@ void Approximation::take_in(double outside_width) {
 }
 
 /// Takes in these points, which are too far above simplices, and all that are further outside than others may
-/// be then.
-void Approximation::take_in(std::span<const LocatedPoint> far, double& outside_width, int round) {
-  if (far.empty()) return;
+/// be then: returns how far.
+double Approximation::take_in_far(std::span<const LocatedPoint> far, double outside_width, int round) {
+  if (far.empty()) return outside_width;
   growth_.put_back(far);
   outside_width = less_outside(outside_width, round);
-  take_in(outside_width);
+  take_in_outside(outside_width);
+  return outside_width;
 }
 
 /// Takes in these points, of those left out, however little they are outside; no other.
-void Approximation::take_in(std::span<const PointId> left_out) {
+void Approximation::take_in_alone(std::span<const PointId> left_out) {
   for (std::size_t round = 0; round <= left_out.size() && !growth_.is_limited(); ++round) {
     const std::vector<LocatedPoint> above = located(left_out);
     if (above.empty()) return;

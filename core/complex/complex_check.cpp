@@ -203,8 +203,10 @@ class Checker {
         queue.push_back(next);
       }
     }
-    if (queue.size() != result_.simplices)
-      report(result_, "is all that the first simplex reaches", queue[0], queue.size());
+    if (queue.size() == result_.simplices || result_.problems++ > 0) return;
+    result_.first_problem = "simplex " + std::to_string(queue[0]) + ": reaches " +
+                            std::to_string(queue.size()) + " of " + std::to_string(result_.simplices) +
+                            " simplices";
   }
 
   const SimplicialComplex& complex_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/ids.h"
+
 namespace ndhull {
 
 void SimplexRows::set_part(std::uint32_t first, std::size_t at, std::span<const std::uint16_t> others) {
@@ -20,7 +22,8 @@ void SimplexRows::set_part(std::uint32_t first, std::size_t at, std::span<const 
 
 void SimplexRows::number() {
   for (std::size_t first = 0; first < parts_.size(); ++first)
-    begin_[first + 1] = begin_[first] + (parts_[first].runs.empty() ? 0 : parts_[first].runs.back().begin);
+    begin_[first + 1] = narrow_id(std::size_t{begin_[first]} +
+                                  (parts_[first].runs.empty() ? 0 : parts_[first].runs.back().begin));
 }
 
 void SimplexRows::vertices_of(std::uint32_t row, std::uint32_t* vertices) const {

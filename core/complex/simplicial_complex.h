@@ -1,11 +1,11 @@
 // The growth complex: simplices with their vertices, neighbours and dual planes, in flat tables.
 //
-// Invariants (core/complex/complex_check.h tests them)
+// Invariants (core/complex/complex_check.h tests the first three)
 //   * neighbour k of a simplex is opposite its vertex k, and shares the other rank-1 vertices;
 //   * the relation is symmetric and closed: no neighbour is none;
 //   * replacing a vertex never changes the order of the others, so the orientation of the vertex rows is
 //     the same for all simplices;
-//   * a simplex without points outside has outside_head none.
+//   * a simplex without points outside has outside_head 0.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ namespace ndhull {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Gauge of y above the simplex with this plane: a.y - 1, as one chain of fused multiply-adds a parity.
+/// Gauge of y above the simplex with this plane: a.y - 1, in two chains of fused multiply-adds: of even and of odd coordinates.
 template <std::size_t D>
 HWY_INLINE double gauge_above(const double* HWY_RESTRICT plane, const double* HWY_RESTRICT y) {
   double even = -1.0, odd = 0.0;
@@ -313,7 +313,7 @@ typename Grower<D>::Outcome Grower<D>::insert(std::uint32_t apex_id, std::uint32
         live_rows() + horizon_count_ - visible_count_ > work_.options.max_rows) {
       return Outcome::kPastLimit;
     }
-    // No gauge within the shift of 0: the visible set is the same without a shift, and certain.
+    // No gauge near 0: the visible set is the same without a shift, and certain.
     const bool certain = lowest_visible_ > 2.0 * low && highest_hidden_ < -low;
     if (certain) shift = 0.0;
     make_place_for(rows_for_cone());

@@ -30,6 +30,21 @@ void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, doub
   std::copy_n(dual.data(), work.rank, plane);
 }
 
+/// Before a hull begins: nothing is left of one before, and no point has a place.
+void clear_work(GrowthWork& work) {
+  work.paused.reset();
+  work.complex = SimplicialComplex();
+  work.complex.rank = work.rank;
+  work.free_rows = HugeArray<std::uint32_t>();
+  work.free_count = 0;
+  work.next_outside.assign(work.point_count, 0);
+  work.heights.reset(work.point_count);
+  work.points_outside = 0;
+  work.waiting.clear();
+  work.shifted_points.clear();
+  work.counters = GrowthCounters();
+}
+
 /// Where a point is over the first simplex.
 struct Place {
   std::uint32_t row;
@@ -136,14 +151,8 @@ void forget_outside(GrowthWork& work) {
 }
 
 void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoints first) {
-  work.paused.reset();
-  work.complex = SimplicialComplex();
-  work.complex.rank = work.rank;
-  work.free_rows = HugeArray<std::uint32_t>();
-  work.free_count = 0;
+  clear_work(work);
   make_room_for(work, work.rank + 1);
-  work.next_outside.assign(work.point_count, 0);
-  work.heights.reset(work.point_count);
   SimplicialComplex& complex = work.complex;
   complex.row_count = work.rank + 1;
   for (std::uint32_t row = 0; row <= work.rank; ++row) {
@@ -220,15 +229,12 @@ GrownHull take_grown(GrowthWork& work) {
 }
 
 void start_growth(GrowthWork& work, GrownHull grown) {
-  work.paused.reset();
+  clear_work(work);
   work.complex = std::move(grown.complex);
   work.free_rows = std::move(grown.free_rows);
   work.free_count = grown.free_count;
   work.counters = grown.counters;
-  work.next_outside.assign(work.point_count, 0);
-  work.heights.reset(work.point_count);
   const std::vector<bool> is_vertex = find_corners(work.complex, 0, work.complex.row_count, work.point_count);
-  work.waiting.clear();
   for (std::uint32_t id = 0; id < work.point_count; ++id)
     if (!is_vertex[id]) work.waiting.push_back(id);
   work.waiting_height = HUGE_VAL;

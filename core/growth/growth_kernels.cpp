@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/error.h"
 #include "core/machine/simd_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/growth/growth_kernels.cpp"
@@ -45,6 +46,7 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 
 GrowthStop grow(GrowthWork& work) {
+  NDHULL_CHECK(!(work.options.by_gauge && work.options.in_regions));
   const GrowthStop stop = NDHULL_BEST_OF(run_growth)(work);
   if (stop == GrowthStop::kNoOutsidePoints) forget_outside(work);
   return stop;

@@ -36,7 +36,7 @@ template <std::size_t D>
 HWY_INLINE std::uint32_t slots_to_turn(const std::uint32_t* row, std::uint32_t k) {
   const RowTag<D> tag;
   std::uint32_t rank_is_odd = 0;  // of an id among those of the row
-  std::uint32_t inverted = 0;  // as many bits as there are pairs in the wrong order, or two less, or four ...
+  std::uint32_t inverted = 0;     // an odd number of bits if an odd number of pairs is in the wrong order
   for (std::uint32_t slot = 0; slot < D; ++slot) {
     const auto id = hn::Set(tag, row[slot]);
     const std::uint32_t above =

@@ -1,5 +1,4 @@
-// Where in a row of ids something stands. Included once per target by growth_kernels.cpp and
-// determinants.cpp.
+// Where in a row of ids something stands. Included once per target by growth_kernels.cpp.
 
 #if defined(NDHULL_ROW_SLOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NDHULL_ROW_SLOTS_INL_H_

@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<double>;
 using Lane = hn::Vec<Tag>;
 
-/// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the determinant
-/// up to sign. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th
+/// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the
+/// determinant. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th
 /// ed., 3.4). Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot
 /// row in turn, which leaves the largest there. A singular system gives infinities or NaN in its lane.
 /// Without pivots it takes less than half the time, and loses as many digits as the smallest diagonal entry

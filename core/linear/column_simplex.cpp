@@ -24,8 +24,8 @@ constexpr double kTrifleSlack = 1e-3;
 /// A factorisation with a smaller reciprocal condition has no digits left.
 constexpr double kSingular = 1e-14;
 
-/// Pivots, and for each row, after which columns that are nearly parallel are taken for what leads round in
-/// circles, and tolerances are loosened by so much; again after as many.
+/// After kPatience + kPatienceARow * rows pivots the program is taken to go round in circles among nearly
+/// parallel columns, and tolerances grow by kLooser; again after as many.
 constexpr std::uint64_t kPatience = 250, kPatienceARow = 25;
 constexpr double kLooser = 100.0;
 

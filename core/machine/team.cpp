@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
+#include <utility>
 
 #include "core/error.h"
 
@@ -32,7 +34,11 @@ std::size_t team_threads(std::size_t most) {
 }
 
 Team::Team(std::size_t threads) {
-  for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back([this] { serve(); });
+  workers_.reserve(threads - 1);
+  try {
+    for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back([this] { serve(); });
+  } catch (const std::system_error&) {  // the system has no more threads: those that there are will do
+  }
 }
 
 Team::~Team() {
@@ -69,6 +75,7 @@ void Team::for_each_block(std::size_t count, std::size_t size, const BlockWork& 
       std::this_thread::yield();
     }
   }
+  if (has_failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 /// Takes a block of the present loop and does it; false when there is none.
@@ -78,7 +85,11 @@ bool Team::take_block() {
     const std::uint64_t block = loop & kFieldMask, blocks = loop >> kFieldBits & kFieldMask;
     if (block >= blocks) return false;
     if (!loop_.compare_exchange_weak(loop, loop + 1)) continue;
-    (*work_)(block * size_, std::min(count_, (block + 1) * size_));
+    try {
+      (*work_)(block * size_, std::min(count_, (block + 1) * size_));
+    } catch (...) {
+      if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+    }
     done_.fetch_add(1, std::memory_order_release);
     return true;
   }

@@ -1,12 +1,13 @@
 // A few threads that wait for short loops while they are hot: starting one costs well below a microsecond.
 //
-// oneTBB's workers sleep between loops and take 5 to 50 us to come; one insertion of growth has some twenty
+// oneTBB's workers sleep between loops and take 5 to 50 us to come; one insertion of growth has some forty
 // loops of about that length. A team belongs to one growth, as long as it lasts.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -23,7 +24,7 @@ std::size_t team_threads(std::size_t most);
 /// the block that it is at.
 class Team {
  public:
-  /// `threads`: with the one that calls. Starts the others.
+  /// `threads`: with the one that calls, at least 1. Starts the others, or as many as the system has.
   explicit Team(std::size_t threads);
   ~Team();
   Team(const Team&) = delete;
@@ -32,7 +33,8 @@ class Team {
   std::size_t threads() const { return workers_.size() + 1; }
 
   /// Calls work(begin, end) for the blocks [0, size), [size, 2 size), ... of [0, count), the last one
-  /// shorter. At most 65,535 blocks, one loop at a time. `work` must not throw.
+  /// shorter. At most 65,535 blocks, one loop at a time. Throws what `work` threw first, when all blocks
+  /// are done.
   void for_each_block(std::size_t count, std::size_t size, const BlockWork& work);
 
  private:
@@ -50,6 +52,8 @@ class Team {
   alignas(64) std::atomic<std::uint32_t> sleepers_ = 0;
   std::atomic<std::uint32_t> calls_ = 0;  // changes when sleepers are to wake up
   std::atomic<bool> is_over_ = false;
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr failure_;  // of who set has_failed_
   std::vector<std::jthread> workers_;
 };
 

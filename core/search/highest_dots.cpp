@@ -44,9 +44,10 @@ HWY_INLINE void scale_direction(const PointGroups& points, const double* normal,
                                 std::size_t facet, ScaledDirections<D, kCount>& scaled, std::size_t at) {
   const std::size_t width = D > 0 ? D : points.dimension();
   const double* column_sizes = points.column_sizes().data();
+  constexpr double kSmaller = 0x1p-8;  // the sum is finite so
   double size = 0.0;
-  for (std::size_t k = 0; k < width; ++k) size += std::abs(normal[k]) * column_sizes[k];
-  const double factor = 1.0 / size;
+  for (std::size_t k = 0; k < width; ++k) size += std::abs(normal[k]) * (column_sizes[k] * kSmaller);
+  const double factor = points.product_size() * kSmaller / size;
   for (std::size_t k = 0; k < width; ++k) {
     scaled.normals[at * width + k] = static_cast<float>(normal[k] * column_sizes[k] * factor);
   }
@@ -63,7 +64,8 @@ alignas(64) constexpr std::uint32_t kFirstIds[PointGroups::kSize] = {0, 1, 2,  3
                                                                      8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Lists the groups whose balls reach up to what is attained. The sums are below 4, so their errors are below
-/// four times those of a product. A NaN is not below 0: it leaves nothing out. Writes up to a vector more.
+/// four times those of a product. A NaN is not below 0: it leaves no group out, and places behind the last
+/// group are none. Writes up to a vector more.
 template <std::size_t D>
 std::size_t list_near_groups(const PointGroups& points, const float* normal, float doubtful,
                              std::uint32_t* near) {
@@ -89,6 +91,7 @@ std::size_t list_near_groups(const PointGroups& points, const float* normal, flo
     count += static_cast<std::size_t>(__builtin_popcount(is_near));
     ids = hn::Add(ids, next);
   }
+  while (count > 0 && near[count - 1] >= points.count()) --count;
   return count;
 }
 
@@ -298,6 +301,7 @@ PointGroups::PointGroups(std::size_t dimension, std::span<const double> points, 
       largest = std::max(largest, std::abs(points[row * dimension + k]));
     }
     if (largest > 0.0) column_sizes_[k] = std::ldexp(1.0, std::min(std::ilogb(largest) + 1, 1023));
+    if (largest >= 0x1p1022) product_size_ = 0.25;
   }
   std::vector<std::uint32_t> order(point_count);
   std::iota(order.begin(), order.end(), 0);

@@ -30,8 +30,11 @@ class PointGroups {
   std::size_t count() const { return count_; }
   std::size_t padded_count() const { return padded_count_; }  ///< a multiple of 64
 
-  /// 2^-exponent brings a column into [-1, 1]; the float tables hold columns scaled so.
+  /// Powers of two; a column divided by its size is in [-1, 1], if it holds nothing above 2^1023. The float
+  /// tables hold columns scaled so.
   std::span<const double> column_sizes() const { return column_sizes_; }
+  /// What a product of scaled entries is to be at most: less than 1 where columns are not in [-1, 1].
+  double product_size() const { return product_size_; }
   /// Coordinate k of the kSize points of a group.
   const double* rows(std::size_t group, std::size_t k) const {
     return rows_.data() + (group * dimension_ + k) * kSize;
@@ -48,7 +51,8 @@ class PointGroups {
   void find_centre(std::size_t group);
 
   std::size_t dimension_, point_count_, count_, padded_count_;
-  std::vector<double> column_sizes_;  // powers of two, at least the largest |x_k|
+  std::vector<double> column_sizes_;
+  double product_size_ = 1.0;
   std::vector<double> rows_;
   std::vector<float> scaled_rows_, centres_, radii_;
 };

@@ -29,7 +29,7 @@ using Lane = hn::Vec<Tag>;
 constexpr std::size_t kSimplicesInBlock = 2048;
 
 // Two vectors of facets stay in registers while all points stream by: each broadcast is used twice. D = 0:
-// the dimension is known at run time only and the facets' coordinates come from the stack.
+// the dimension is known at run time only and the facets' coordinates come from memory.
 template <std::size_t D>
 void max_dots_of(std::size_t dimension, std::span<const double> normals, std::span<const double> points,
                  std::span<double> max_dot) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ids.h"
 #include "core/whole_facets/double_description.h"
 
 namespace ndhull {
@@ -143,7 +144,7 @@ class Puller {
 
   void add_simplex(Words bits, std::size_t k, std::uint32_t number) {
     PulledFaces::Face& face = pulled_.faces[number];
-    face.begin = static_cast<std::uint32_t>(pulled_.entries.size());
+    face.begin = narrow_id(pulled_.entries.size());
     face.count = static_cast<std::uint32_t>(k + 1);
     face.is_simplex = true;
     face.simplices = 1;
@@ -204,7 +205,7 @@ class Puller {
       simplices = saturating_sum(simplices, pulled_.faces[child].simplices);
     }
     PulledFaces::Face& face = pulled_.faces[number];
-    face.begin = static_cast<std::uint32_t>(pulled_.entries.size());
+    face.begin = narrow_id(pulled_.entries.size());
     face.count = static_cast<std::uint32_t>(1 + level.children.size());
     face.measure = measure;
     face.simplices = simplices;
@@ -290,6 +291,12 @@ class Puller {
 };
 
 }  // namespace
+
+std::uint64_t count_simplices(const PulledFaces& faces) {
+  std::uint64_t count = 0;
+  for (const std::uint32_t facet : faces.facets) count = saturating_sum(count, faces.faces[facet].simplices);
+  return count;
+}
 
 void rename_vertices(PulledFaces& faces, std::span<const std::uint32_t> ids) {
   for (const PulledFaces::Face& face : faces.faces) {

@@ -31,6 +31,9 @@ struct PulledFaces {
   }
 };
 
+/// Simplices of the facets' triangulations; saturates.
+std::uint64_t count_simplices(const PulledFaces& faces);
+
 /// Vertex i is now ids[i].
 void rename_vertices(PulledFaces& faces, std::span<const std::uint32_t> ids);
 

@@ -5,12 +5,11 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/ids.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
 namespace {
-
-constexpr std::uint32_t kNoRow = UINT32_MAX;
 
 class ComplexMaker {
  public:
@@ -18,9 +17,7 @@ class ComplexMaker {
       : faces_(faces), first_rows_(first_rows), rank_(faces.rank) {}
 
   GroupedComplex run() {
-    std::uint64_t count = 0;
-    for (const std::uint32_t face : faces_.facets)
-      count = std::max(count, count + faces_.faces[face].simplices);
+    const std::uint64_t count = count_simplices(faces_);
     constexpr std::uint64_t kMostSimplices = std::uint64_t{1} << 27;
     if (count > kMostSimplices) {
       throw Error(ErrorCode::kTooManySimplices,
@@ -78,27 +75,33 @@ class ComplexMaker {
     }
     struct Slot {
       std::uint64_t key;
-      std::uint32_t row = kNoRow, place;
+      std::uint32_t row = kNone, place = 0;
+      bool is_paired = false;
     };
     std::vector<Slot> slots(std::bit_ceil(rows * rank_ + 1));
     const int shift = std::countl_zero(slots.size() - 1);
+    std::size_t pairs = 0;
     for (std::uint32_t row = 0; row < rows; ++row) {
       std::uint64_t sum = 0;
       for (std::size_t k = 0; k < rank_; ++k) sum += number[vertices(row)[k]];
       for (std::uint32_t k = 0; k < rank_; ++k) {
         const std::uint64_t key = sum - number[vertices(row)[k]];
         std::size_t at = (key * 0x9e3779b97f4a7c15) >> shift;
-        while (slots[at].row != kNoRow &&
+        while (slots[at].row != kNone &&
                !(slots[at].key == key && is_same_ridge(row, k, slots[at].row, slots[at].place)))
           at = (at + 1) & (slots.size() - 1);
-        if (slots[at].row == kNoRow) {
-          slots[at] = {key, row, k};
+        if (slots[at].row == kNone) {
+          slots[at] = {.key = key, .row = row, .place = k};
         } else {
+          NDHULL_CHECK(!slots[at].is_paired);
+          slots[at].is_paired = true;
+          ++pairs;
           neighbours(row)[k] = slots[at].row;
           neighbours(slots[at].row)[slots[at].place] = row;
         }
       }
     }
+    NDHULL_CHECK(2 * pairs == rows * rank_);
   }
 
   bool is_same_ridge(std::uint32_t a, std::size_t place_a, std::uint32_t b, std::size_t place_b) {

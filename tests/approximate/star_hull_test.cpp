@@ -110,6 +110,7 @@ TEST(HullByStars, LeavesDegeneratePointsToGrowth) {
     options.accuracy.width = {2.0, true};
     options.limits.max_memory_bytes = 5 << 20;
     const Hull hull = hull_of(set, options);
+    EXPECT_FALSE(has_stars(hull));
     expect_approximate_laws(hull, set.view());
   }
 }

@@ -156,5 +156,23 @@ TEST(WideCoverLaw, ManyFacetsHangTogether) {
   EXPECT_LT(50 * count_cut_off(complex, *covering), live);
 }
 
+// Passes over what has no facet yet went on for ever once nothing was left.
+TEST(WideCoverRegression, EndsWhereNeighboursTakeAllSimplices) {
+  const GrownSphere sphere("14000 s D3 t3", 14000);
+  const SimplicialComplex& complex = sphere.work.complex;
+  const SlabGrower grower(complex, *sphere.space, nullptr, true);
+  SlabSeeds seeds(complex, *sphere.space, true);
+  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
+  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
+  const double width = 0.0187;
+  const std::optional<Covering> covering = wide.cover(width, CoverEffort{});
+  ASSERT_TRUE(covering.has_value());
+  EXPECT_GT(covering->planes.size(), 256U);
+  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+    if (!sphere.is_live(row)) continue;
+    ASSERT_LT(covering->facet_of[row], covering->planes.size());
+  }
+}
+
 }  // namespace
 }  // namespace ndhull

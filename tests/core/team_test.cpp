@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -58,6 +59,23 @@ TEST(Team, SleepersAreCalled) {
     }
   });
   EXPECT_TRUE(second_was_done);
+}
+
+// Whichever thread does the block, and the loops after it are done as if nothing had been.
+TEST(Team, WhatABlockThrowsIsThrownWhenAllAreDone) {
+  for (const unsigned threads : {1u, 2u, 4u}) {
+    Team team(threads);
+    for (const std::size_t bad : {0u, 3u, 63u}) {
+      std::atomic<int> done = 0;
+      const auto work = [&](std::size_t begin, std::size_t) {
+        if (begin == bad) throw std::bad_alloc();
+        ++done;
+      };
+      EXPECT_THROW(team.for_each_block(64, 1, work), std::bad_alloc);
+      EXPECT_EQ(done, 63);
+    }
+    EXPECT_EQ(visits(team, 20, 100, 3), std::vector<int>(100, 20));
+  }
 }
 
 }  // namespace

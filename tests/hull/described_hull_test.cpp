@@ -4,8 +4,10 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/frame.h"
 #include "core/portable_random.h"
+#include "core/whole_facets/pulled_complex.h"
 #include "tests/hull/hull_support.h"
 #include "tests/support/degeneracies.h"
 
@@ -129,6 +131,23 @@ TEST(DescribedHullExample, CubesWhoseSimplicesNobodyCanList) {
   EXPECT_NEAR(hull.volume, 1024.0, 1e-9);
   EXPECT_EQ(hull.simplex_count(), 7'257'600u);  // 20 times 9!
   EXPECT_EQ(hull.points_outside, 0u);
+}
+
+// The facets' numbers of simplices are as large as they can be told, so their sum would begin at 0 again.
+TEST(PulledComplexLaw, MoreSimplicesThanCanBeListedAreRefused) {
+  PulledFaces faces{.rank = 2,
+                    .faces = {{.begin = 0, .count = 2, .is_simplex = true, .measure = 1.0, .simplices = 1},
+                              {.begin = 0, .count = 2, .measure = 1.0, .simplices = UINT64_MAX}},
+                    .entries = {0, 1},
+                    .facets = {0, 1}};
+  EXPECT_EQ(count_simplices(faces), UINT64_MAX);
+  const std::vector<std::uint32_t> first_rows{0, 1};
+  try {
+    make_complex(faces, first_rows);
+    FAIL() << "expected Error kTooManySimplices";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kTooManySimplices);
+  }
 }
 
 }  // namespace

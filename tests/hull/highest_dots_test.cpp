@@ -153,7 +153,9 @@ TEST(HighestDotsLaw, DuplicatesAndValuesBeyondSinglePrecisionChangeNothing) {
   expect_all_products(products, 5);
   for (double& value : products.points) value *= 1e200;
   expect_all_products(products, 5);
-  for (double& value : products.points) value *= 0x1p-1000;
+  for (double& value : products.points) value *= 0x1p358;  // up to 5.9e307
+  expect_all_products(products, 5);
+  for (double& value : products.points) value = std::ldexp(value, -1358);
   expect_all_products(products, 5);
   std::fill(products.points.begin(), products.points.end(), 0.0);
   expect_all_products(products, 5);

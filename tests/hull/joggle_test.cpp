@@ -42,6 +42,14 @@ TEST(Joggle, MakesDegenerateInputSimplicialAndWidensThePlanes) {
   }
 }
 
+// Squares of what these move are 0.
+TEST(Joggle, WidensThePlanesOfTinyPoints) {
+  PointSet points = rbox("c D3");
+  for (double& x : points.coordinates) x = std::ldexp(x, -530);
+  const JoggledHull joggled = joggled_hull(points.view(), {}, {});
+  expect_holds_for(points, joggled);
+}
+
 TEST(Joggle, GivesFlatPointsTheThicknessOfTheJoggle) {
   PointSet points = rbox("50 D3 t1");
   for (std::size_t row = 0; row < points.rows(); ++row) points.row(row)[2] = 0.25;

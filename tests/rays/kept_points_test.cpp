@@ -103,6 +103,29 @@ TEST(KeepPointsLaw, ChoosesTheFurthestEachTime) {
   }
 }
 
+// Squares of such numbers are 0, and infinite.
+TEST(KeepPointsLaw, TinyAndHugePointsAreKeptAsTheyAreAtAnySize) {
+  const PointSet set = family_points(PointFamily::kGaussian, 200, 4, 9);
+  const ExtremePoints extreme = extreme_points(set.view());
+  const KeptPoints kept = keep_points(set.view(), extreme.vertices, extreme.interior_point, {.count = 12});
+  const std::vector<double> all = distances_from_hull(set.view(), kept.points, extreme.interior_point);
+  for (const int exponent : {-700, 700}) {
+    PointSet scaled = set;
+    std::vector<double> centre = extreme.interior_point;
+    for (double& x : scaled.coordinates) x = std::ldexp(x, exponent);
+    for (double& x : centre) x = std::ldexp(x, exponent);
+    const KeptPoints same = keep_points(scaled.view(), extreme.vertices, centre, {.count = 12});
+    EXPECT_EQ(same.points, kept.points);
+    ASSERT_EQ(same.distances.size(), kept.distances.size());
+    for (std::size_t i = 0; i < kept.distances.size(); ++i)
+      EXPECT_EQ(same.distances[i], std::ldexp(kept.distances[i], exponent));
+    EXPECT_EQ(same.lower, std::ldexp(kept.lower, exponent));
+    const std::vector<double> scaled_all = distances_from_hull(scaled.view(), same.points, centre);
+    for (std::size_t row = 0; row < all.size(); ++row)
+      EXPECT_EQ(scaled_all[row], std::ldexp(all[row], exponent));
+  }
+}
+
 TEST(KeepPointsExample, NoVerticesNoChoice) {
   const PointSet set = family_points(PointFamily::kCube, 10, 3, 9);
   EXPECT_TRUE(keep_points(set.view(), {}, std::vector<double>(3, 0.0), {.count = 4}).points.empty());

@@ -62,7 +62,6 @@ TEST(RayShootingOracle, EndsOnTheFacetThatTheRayLeavesThrough) {
   }
 }
 
-/// Sets of points on one plane with as many as `rank` independent ones.
 TEST(RayShootingOracle, FindsTheNeighboursOfTheHull) {
   const PointSet set = family_points(PointFamily::kGaussian, 80, 5, 3);
   const Hull hull = hull_of(set);

@@ -20,4 +20,10 @@ void warn_of_flat_volume(std::size_t rank, std::size_t dimension) {
              rank, dimension, rank == 0 ? 0 : rank - 1);
 }
 
+void warn_of_missing_vertices(HullStatus status) {
+  if (status == HullStatus::kComplete) return;
+  fmt::print(stderr, "ndhull: warning: {}: vertices are missing, the intersection is inside those written\n",
+             to_string(status));
+}
+
 }  // namespace ndhull

@@ -12,7 +12,9 @@
 #include "core/machine/stopwatch.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/command_line/interrupt.h"
+#include "tools/command_line/machine_memory.h"
 #include "tools/command_line/named_outputs.h"
+#include "tools/command_line/warnings.h"
 #include "tools/io/cdd_reader.h"
 #include "tools/io/halfspace_numbers.h"
 #include "tools/io/halfspace_reader.h"
@@ -182,6 +184,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
   options.measure = false;
   options.threads = threads;
   options.stop = interrupt.token();
+  options.limits.machine_memory_bytes = memory_of_machine();
   interrupt.arm();
   const Clock::time_point start = Clock::now();
   HalfspaceIntersection region =
@@ -192,10 +195,12 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
     HullOptions dual;
     dual.threads = threads;
     dual.stop = options.stop;
+    dual.limits.machine_memory_bytes = options.limits.machine_memory_bytes;
     const OpenIntersection open = open_intersection(file, region.interior_point, dual);
     if (open.hull.rank < file.dimension) throw no_points(region, file.path);
     if (command.verify && !is_below_all(open.points, open.max_residual, file, threads))
       return kVerificationFailedExitCode;
+    warn_of_missing_vertices(open.hull.status);
     print_open(open, command, invocation, seconds_since(start));
   } else {
     number_as_in_file(region, file);
@@ -204,6 +209,7 @@ int run_qhalf(const QhullCommand& command, unsigned threads) {
       throw no_points(region, file.path);
     if (command.verify && !is_below_all(region.vertices, region.max_residual, file, threads))
       return kVerificationFailedExitCode;
+    warn_of_missing_vertices(region.status);
     print_region(region, command, invocation, seconds);
   }
   return interrupt.requested() ? kInterruptedExitCode : 0;
