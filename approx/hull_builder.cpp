@@ -220,28 +220,42 @@ Hull HullBuilder::for_width_instead() {
   return again(options, earlier_);
 }
 
-/// Has memory ended growth, and are the simplices, for which it went, far wider than points are above them?
-/// Points are far above others then, which slabs may hold.
+/// Has a limit ended growth for a width, and are there facets far wider than points are outside? Points are far
+/// above some simplices then, which slabs may hold. Where memory has ended growth, it all went into simplices.
 bool HullBuilder::is_wide_for(double height, const ResolvedAccuracy& lengths) const {
-  constexpr double kTimesAsWide = 2.0, kTimesAsLong = 4.0;
-  return hull_.status == HullStatus::kMemoryLimit && !hull_.is_approximate && lengths.width > 0.0 &&
-         options_.accuracy.facets == 0 && height > 0.0 &&
-         hull_.max_facet_width > std::max(lengths.width, kTimesAsWide * height) &&
-         growth_->seconds_left() > kTimesAsLong * seconds_since(start_) && !options_.stop.stop_requested();
+  constexpr double kTimesAsWide = 2.0, kTimesAsLong = 4.0, kTimesAsWideInTime = 1.5, kShareLeft = 0.25;
+  if (lengths.width <= 0.0 || options_.accuracy.facets > 0 || height <= 0.0 || options_.stop.stop_requested())
+    return false;
+  const double width = hull_.max_facet_width, left = growth_->seconds_left();
+  if (hull_.status == HullStatus::kTimeLimit)
+    return width > std::max(lengths.width, kTimesAsWideInTime * height) &&
+           left > std::max(1.0, kShareLeft * options_.limits.max_seconds);
+  return hull_.status == HullStatus::kMemoryLimit && !hull_.is_approximate &&
+         width > std::max(lengths.width, kTimesAsWide * height) &&
+         left > kTimesAsLong * seconds_since(start_);
 }
 
-/// Slabs as narrow as there is memory for, in place of simplices. Where points are far above simplices more
-/// facets are hardly narrower (wine, of 11-d points).
+/// Slabs as narrow as there is memory or time for, in place of what the limit has left. Where points are far
+/// above simplices more facets are hardly narrower (wine, of 11-d points).
 Hull HullBuilder::narrow_instead(const ResolvedAccuracy& lengths) {
-  constexpr std::uint64_t kFacets = 500;
+  constexpr std::uint64_t kFacets = 500,
+                          kMostBeside = 2'000'000;  // simplices that another hull has room beside
+  const HullStatus status = hull_.status;
+  std::optional<Hull> before;
+  if (status == HullStatus::kTimeLimit && hull_.simplex_count() <= kMostBeside) before = std::move(hull_);
+  hull_ = Hull();
   HullOptions options = options_;
   options.accuracy.width = Length();
   options.accuracy.facets = kFacets;
-  hull_ = Hull();  // there is no room for both
+  if (options.limits.max_seconds > 0.0) {  // the search has what is left for all of its time
+    options.limits.max_seconds = growth_->seconds_left();
+    start_ = Clock::now();
+  }
   whole_facets_.reset();
   Hull hull = again(options, {.has_tried_exact = true});
+  if (before && before->max_facet_width <= hull.max_facet_width) return std::move(*before);
   hull.chosen.width_asked = lengths.width_asked();
-  if (hull.status == HullStatus::kComplete) hull.status = HullStatus::kMemoryLimit;
+  if (hull.status == HullStatus::kComplete) hull.status = status;
   return hull;
 }
 

@@ -68,22 +68,22 @@ constexpr double kSampleShape = 200.0;
 
 /// Largest product of a dual vertex of the simplex with a point of it, or of length `reach` if that is more.
 /// Of its own points: 1 / relative height of the worst facet.
+///
+/// About the mean the vertices sum to 0, so the dual vertex of the facet opposite vertex i takes -rank there and
+/// 1 at the others: one inverse of all vertices but the first has all of them.
 double worst_shape(const Matrix& vertices, double reach = 0.0) {
   const Eigen::Index rank = vertices.cols();
   const Eigen::RowVectorXd mean = vertices.colwise().mean();
   const Matrix centred = vertices.rowwise() - mean;
   reach = std::max(reach, centred.rowwise().norm().maxCoeff());
-  double worst = 0.0;
-  for (Eigen::Index omitted = 0; omitted <= rank; ++omitted) {
-    Matrix facet(rank, rank);
-    for (Eigen::Index row = 0, from = 0; from <= rank; ++from) {
-      if (from != omitted) facet.row(row++) = centred.row(from);
-    }
-    const Vector dual = SquareFactors(facet).solve(Vector::Ones(rank));
+  const Matrix inverse = SquareFactors(centred.bottomRows(rank)).inverse();
+  const Vector first = inverse.rowwise().sum();
+  double worst = first.norm() * reach;
+  for (Eigen::Index omitted = 0; omitted < rank; ++omitted) {
+    const Vector dual = first - static_cast<double>(rank + 1) * inverse.col(omitted);
     worst = std::max(worst, dual.norm() * reach);
-    if (!std::isfinite(worst)) return std::numeric_limits<double>::infinity();
   }
-  return worst;
+  return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
 }
 
 /// Independent directions of length 1, in input units, that span what `directions` (rank x dimension,
@@ -151,23 +151,32 @@ Matrix regular_simplex(Eigen::Index rank) {
   return vertices;
 }
 
-/// Columns about their middles, times powers of two: extents near 1.
+/// Columns about their middles, times powers of two: extents near 1, or less of columns that are much rougher
+/// than others.
 struct ScaledColumns {
   Vector scale, middle;
   double tolerance = 0.0;  // what is nearer to an affine span is so by the rounding of the input
 };
 
 ScaledColumns scale_columns(const Frame& frame) {
+  constexpr double kRough = 1e-6;  // tolerance beyond which a column would hide others thinner than that
   ScaledColumns columns{Vector(frame.dimension), Vector(frame.dimension)};
-  double largest = 1.0;  // coordinate, in scaled units
+  Vector largest = Vector::Ones(columns.scale.size());  // coordinates, in scaled units
   for (std::size_t k = 0; k < frame.dimension; ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     const double low = frame.column_min[k], high = frame.column_max[k];
     columns.scale[at] = column_scale(low, high);
     columns.middle[at] = 0.5 * low + 0.5 * high;
-    largest = std::max(largest, columns.scale[at] * std::max(std::abs(low), std::abs(high)));
+    largest[at] = std::max(1.0, columns.scale[at] * std::max(std::abs(low), std::abs(high)));
   }
-  columns.tolerance = 8.0 * static_cast<double>(frame.dimension) * kRoundoff * (1.0 + largest);
+  const double roundings = 8.0 * static_cast<double>(frame.dimension) * kRoundoff;
+  columns.tolerance = roundings * (1.0 + largest.maxCoeff());
+  if (columns.tolerance <= kRough) return columns;
+  // As rough as the finest of those that vary.
+  const double finest = (columns.scale.array() != 0.0).select(largest.array(), HUGE_VAL).minCoeff();
+  for (Eigen::Index k = 0; k < largest.size(); ++k)
+    columns.scale[k] = std::ldexp(columns.scale[k], -std::ilogb(largest[k] / finest));
+  columns.tolerance = 2.0 * roundings * (1.0 + finest);
   return columns;
 }
 

@@ -130,8 +130,8 @@ void add_contains_command(CLI::App& app) {
   command
       ->add_option(
           "--width", arguments->width,
-          "of the hull's widest facet (max_facet_width in its report): less far below an outer plane "
-          "the answer is \"within-width\"; default 0")
+          "in the units of the queries, of the hull's widest facet (max_facet_width in its report, but for "
+          "--unit-cube): less far below an outer plane the answer is \"within-width\"; default 0")
       ->type_name("W")
       ->check(number_from_0());
   add_columns_option(*command, arguments->columns);

@@ -39,8 +39,10 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
                   "print Qhull's text formats, any of " + hull_formats().joined())
       ->type_name("LIST");
   command
-      .add_option("--verify", arguments.verify,
-                  "check the hull independently before it is written; `--verify exact`: all of it, exactly")
+      .add_option(
+          "--verify", arguments.verify,
+          "check the hull independently before it is written; `--verify exact`: signs in exact arithmetic. "
+          "What takes long is checked by samples; the summary and the report say so. No limit holds for it")
       ->type_name("[exact]")
       ->check(one_of({"floating", "exact"}));
   add_progress_options(command, request.progress, request.quiet);

@@ -22,6 +22,7 @@
 #include "tools/command_line/selection_options.h"
 #include "tools/command_line/warnings.h"
 #include "tools/hull_input.h"
+#include "tools/hull_limits.h"
 #include "tools/hull_summary.h"
 #include "tools/io/index_writer.h"
 #include "tools/io/output_file.h"
@@ -133,64 +134,6 @@ void write_results(const HullRequest& request, const Hull& hull, const PointView
   }
 }
 
-/// [s] that are left of the limit since then; one that is used up leaves next to nothing, 0 is none.
-double seconds_left(const Limits& limits, Clock::time_point start) {
-  return limits.max_seconds > 0.0 ? std::max(limits.max_seconds - seconds_since(start), 1e-9) : 0.0;
-}
-
-/// What is left of the limits since then, or what the machine has.
-Limits limits_left(Limits limits, Clock::time_point start) {
-  limits.max_seconds = seconds_left(limits, start);
-  limits.max_memory_bytes = limit_left(limits.max_memory_bytes, resident_memory_bytes());
-  limits.machine_memory_bytes = memory_of_machine();
-  return limits;
-}
-
-/// What is done with each facet of an exact hull once there are facets, for Limits::share_afterwards.
-/// Measured in 5-d to 11-d.
-double share_afterwards(const HullRequest& request) {
-  constexpr double kText = 8.0, kBytes = 1.5, kBounding = 2.0, kSelecting = 0.5;
-  if (!request.options.accuracy.is_exact()) return 0.0;
-  double share = request.selection.bounded ? kBounding : request.selection.is_set() ? kSelecting : 0.0;
-  if (request.selection.is_set()) return share;  // few are written
-  if (!request.planes_path.empty()) share += request.planes_path.ends_with(".npy") ? kBytes : kText;
-  if (request.facet_list) share += kText;
-  return share + kText * static_cast<double>(request.formats.size());
-}
-
-/// [bytes] of each simplex, for Limits::bytes_afterwards: ids in order for --verify (complex_check.h), with the
-/// ridges that are looked at meanwhile; normals once more for --bounded.
-std::uint64_t bytes_afterwards(const HullRequest& request, std::size_t dimension) {
-  std::uint64_t bytes = 0;
-  if (request.verify) bytes = 5 * dimension + 5;
-  if (request.selection.bounded && request.options.accuracy.is_exact()) bytes = 8 * dimension + 16;
-  return bytes;
-}
-
-/// How large a mapped file may be to stay in memory: a small part of what is allowed.
-std::size_t kept_file_bytes(const Limits& limits) {
-  return limits.max_memory_bytes == 0 ? kKeptFileBytes
-                                      : std::min<std::size_t>(kKeptFileBytes, limits.max_memory_bytes / 16);
-}
-
-/// [s] of what is left of the limit for one more number in the report, since the rest has to be written too;
-/// 0: no limit.
-double seconds_for_measure(const Limits& limits, Clock::time_point start) {
-  constexpr double kShare = 0.8;
-  return kShare * seconds_left(limits, start);
-}
-
-/// For what the outer polytope measures: little beside the hull, or what was asked for within all limits.
-Limits limits_for_measure(const HullRequest& request, const Hull& hull, Clock::time_point start) {
-  const Limits& limits = request.options.limits;
-  Limits left{.max_facets = request.outer_volume ? 0 : affordable_simplices(hull, limits),
-              .max_seconds = seconds_for_measure(limits, start)};
-  const std::uint64_t bytes = resident_memory_bytes();
-  if (limits.max_memory_bytes > 0)
-    left.max_memory_bytes = limits.max_memory_bytes > bytes ? limits.max_memory_bytes - bytes : 1;
-  return left;
-}
-
 /// Of the selection, else of all facets: where it costs little beside the hull, or was asked for.
 OuterVolume outer_volume_of(const HullRequest& request, const Hull& hull, const ReportContext& context,
                             Clock::time_point start) {
@@ -221,127 +164,165 @@ HullRequest silent(const HullRequest& request) {
   return rest;
 }
 
-/// `group`: null for one process.
-int run_process(const HullRequest& request, const ProcessGroup* group, Clock::time_point start) {
-  const std::vector<NamedOutput> outputs = outputs_of(request);
-  check_outputs_differ(outputs);
-  Interrupt interrupt;
-  ProgressLine progress(request.progress, request.quiet);
-  tbb::task_arena arena = arena_of(request.options.threads);
-
-  progress.show_phase("read");
-  std::optional<HullInput> read;
-  arena.execute([&] {
-    read.emplace(request.points_path, request.columns, kept_file_bytes(request.options.limits),
-                 request.shards_pattern, group,
-                 [&] { check_outputs_are_writable(outputs, inputs_of(request)); });
-  });
-  HullInput& input = *read;
-  ReportContext context{.input_path = request.shards_pattern + request.points_path,
-                        .options = request.options,
-                        .program_options = program_options(request),
-                        .facet_list = request.facet_list};
-  context.options.threads = static_cast<unsigned>(arena.max_concurrency());
-  context.options.stop = interrupt.token();
-  if (progress.is_shown()) {
-    context.options.progress = [&progress](Progress now) {
-      now.memory_bytes = resident_memory_bytes();
-      progress.show(now);
-    };
+/// One run of one process, step by step.
+class HullRun {
+ public:
+  /// `group`: null for one process.
+  HullRun(const HullRequest& request, const ProcessGroup* group, Clock::time_point start)
+      : request_(request),
+        group_(group),
+        start_(start),
+        outputs_(outputs_of(request)),
+        progress_(request.progress, request.quiet),
+        arena_(arena_of(request.options.threads)) {
+    check_outputs_differ(outputs_);
   }
-  context.read_seconds = seconds_since(start);
 
-  interrupt.arm();
-  HullOptions hull_options = context.options;
-  hull_options.limits = limits_left(hull_options.limits, start);
-  // The hulls of a curve are built beside this one.
-  if (!request.curve_path.empty())
-    hull_options.limits.max_memory_bytes -= hull_options.limits.max_memory_bytes / 2;
-  hull_options.limits.share_afterwards = share_afterwards(request);
-  hull_options.limits.bytes_afterwards = bytes_afterwards(request, input.dimension());
-  // Both look at all simplices: of an approximate hull the complex is kept then, whatever it takes.
-  if (!hull_options.accuracy.is_exact())
-    hull_options.wants_simplices = request.verify.has_value() || !request.formats.empty();
-  std::optional<Hull> computed = input.compute(hull_options);
+  /// Returns the exit code.
+  int run() {
+    read();
+    prepare();
+    interrupt_.arm();
+    hull_ = input_->compute(hull_options_);
+    if (request_.verify.has_value() && !verify()) return kVerificationFailedExitCode;
+    if (!hull_) return 0;  // the first process has it, and goes on alone
+    if (request_.selection.is_set()) select();
+    const bool is_summary = !use_standard_output(outputs_) && !request_.quiet;
+    if (!request_.report_path.empty() || (is_summary && (outputs_.empty() || request_.outer_volume)))
+      measure();
+    input_->number_as_whole(*hull_);
+    if (!request_.curve_path.empty()) trace_curve();  // before anything is written: it may throw
+    write();
+    if (is_summary) {
+      OutputFile file("-");
+      file.write(hull_summary(*hull_, context_));
+      file.commit();
+    }
+    return interrupt_.requested() ? kInterruptedExitCode : 0;
+  }
 
-  std::optional<Verification> verification;
-  if (request.verify.has_value()) {
-    progress.show_phase("verify");
-    const Clock::time_point verify_start = Clock::now();
-    std::string failure;
-    arena.execute([&] {
-      failure = input.verify(computed ? &*computed : nullptr, *request.verify, context.options.threads,
-                             verification.emplace());
+ private:
+  void read() {
+    progress_.show_phase("read");
+    arena_.execute([&] {
+      input_.emplace(request_.points_path, request_.columns, kept_file_bytes(request_.options.limits),
+                     request_.shards_pattern, group_,
+                     [&] { check_outputs_are_writable(outputs_, inputs_of(request_)); });
     });
-    context.verify_seconds = seconds_since(verify_start);
-    context.verification = &*verification;
-    if (!failure.empty()) {
-      progress.clear();
-      fmt::print(stderr, "ndhull: verify: {}\n", failure);
-      return kVerificationFailedExitCode;
-    }
+    context_.read_seconds = seconds_since(start_);
   }
-  if (!computed) return 0;  // the first process has it, and goes on alone
-  Hull& hull = *computed;
-  const PointView points = input.view();
 
-  std::optional<FacetSelection> selection;
-  if (request.selection.is_set()) {
-    progress.show_phase("select");
-    const Clock::time_point select_start = Clock::now();
-    const WorkEnd end(seconds_for_measure(request.options.limits, start), context.options.stop);
-    arena.execute([&] { selection = select_facets(hull, request.selection, end, &points); });
-    context.select_seconds = seconds_since(select_start);
-    context.selection = &*selection;
-    progress.clear();
-    if (!selection->bounded) warn_of_open_selection(*selection, hull);
+  /// What the hull and its report are made with.
+  void prepare() {
+    context_.input_path = request_.shards_pattern + request_.points_path;
+    context_.options = request_.options;
+    context_.program_options = program_options(request_);
+    context_.facet_list = request_.facet_list;
+    context_.options.threads = static_cast<unsigned>(arena_.max_concurrency());
+    context_.options.stop = interrupt_.token();
+    if (progress_.is_shown()) {
+      context_.options.progress = [this](Progress now) {
+        now.memory_bytes = resident_memory_bytes();
+        progress_.show(now);
+      };
+    }
+    hull_options_ = context_.options;
+    Limits& limits = hull_options_.limits;
+    limits = limits_left(limits, start_);
+    // The hulls of a curve are built beside this one.
+    if (!request_.curve_path.empty()) limits.max_memory_bytes -= limits.max_memory_bytes / 2;
+    limits.share_afterwards = share_afterwards(request_);
+    limits.bytes_afterwards = bytes_afterwards(request_, input_->dimension());
+    // Both look at all simplices: of an approximate hull the complex is kept then, whatever it takes.
+    if (!hull_options_.accuracy.is_exact())
+      hull_options_.wants_simplices = request_.verify.has_value() || !request_.formats.empty();
   }
-  std::optional<OuterVolume> outer;
-  std::optional<OuterDistance> outer_reach;
-  const bool is_summary = !use_standard_output(outputs) && !request.quiet;
-  if (!request.report_path.empty() || (is_summary && outputs.empty())) {
-    progress.show_phase("outer volume");
-    const Clock::time_point volume_start = Clock::now();
-    arena.execute([&] { outer = outer_volume_of(request, hull, context, start); });
-    context.outer_volume = &*outer;
-    if (selection && selection->bounded) {
-      arena.execute([&] {
-        outer_reach =
-            outer_distance(hull, points, selection->facets, limits_for_measure(request, hull, start),
-                           context.options.threads, context.options.stop);
+
+  /// False: a claim does not hold, and was named.
+  bool verify() {
+    progress_.show_phase("verify");
+    const Clock::time_point begin = Clock::now();
+    std::string failure;
+    arena_.execute([&] {
+      failure = input_->verify(hull_ ? &*hull_ : nullptr, *request_.verify, context_.options.threads,
+                               verification_.emplace());
+    });
+    context_.verify_seconds = seconds_since(begin);
+    context_.verification = &*verification_;
+    if (failure.empty()) return true;
+    progress_.clear();
+    fmt::print(stderr, "ndhull: verify: {}\n", failure);
+    return false;
+  }
+
+  void select() {
+    progress_.show_phase("select");
+    const Clock::time_point begin = Clock::now();
+    const PointView points = input_->view();
+    const WorkEnd end(seconds_for_measure(request_.options.limits, start_), context_.options.stop);
+    arena_.execute([&] { selection_ = select_facets(*hull_, request_.selection, end, &points); });
+    context_.select_seconds = seconds_since(begin);
+    context_.selection = &*selection_;
+    progress_.clear();
+    if (!selection_->bounded) warn_of_open_selection(*selection_, *hull_);
+  }
+
+  /// What the outer planes enclose, and of a selection how far that reaches.
+  void measure() {
+    progress_.show_phase("outer volume");
+    const Clock::time_point begin = Clock::now();
+    arena_.execute([&] { outer_volume_ = outer_volume_of(request_, *hull_, context_, start_); });
+    context_.outer_volume = &*outer_volume_;
+    if (selection_ && selection_->bounded) {
+      arena_.execute([&] {
+        outer_distance_ = outer_distance(*hull_, input_->view(), selection_->facets,
+                                         limits_for_measure(request_, *hull_, start_),
+                                         context_.options.threads, context_.options.stop);
       });
-      context.outer_distance = &*outer_reach;
+      context_.outer_distance = &*outer_distance_;
     }
-    context.outer_volume_seconds = seconds_since(volume_start);
+    context_.outer_volume_seconds = seconds_since(begin);
   }
 
-  input.number_as_whole(hull);
-  std::vector<TradePoint> curve;  // before anything is written: it may throw
-  if (!request.curve_path.empty()) {
-    progress.show_phase("curve");
-    hull_options.progress = nullptr;
-    hull_options.limits = limits_left(request.options.limits, start);
-    curve = trade_curve(points, hull_options, hull, seconds_since(start) - context.read_seconds);
+  void trace_curve() {
+    progress_.show_phase("curve");
+    hull_options_.progress = nullptr;
+    hull_options_.limits = limits_left(request_.options.limits, start_);
+    curve_ =
+        trade_curve(input_->view(), hull_options_, *hull_, seconds_since(start_) - context_.read_seconds);
   }
 
-  progress.show_phase("write");
-  const Clock::time_point write_start = Clock::now();
-  write_results(request, hull, points, context.selection);
-  context.write_seconds = seconds_since(write_start);
-  context.total_seconds = seconds_since(start);
-  context.peak_memory_bytes = peak_memory_bytes();
-  progress.clear();
-  if (!request.report_path.empty()) write_report(request.report_path, hull, context);
-  if (!request.curve_path.empty())
-    write_trade_curve(curve_paths(request.curve_path), curve,
-                      request.options.unit_cube ? "unit cube" : "input");
-  if (is_summary) {
-    OutputFile file("-");
-    file.write(hull_summary(hull, context));
-    file.commit();
+  void write() {
+    progress_.show_phase("write");
+    const Clock::time_point begin = Clock::now();
+    write_results(request_, *hull_, input_->view(), context_.selection);
+    context_.write_seconds = seconds_since(begin);
+    context_.total_seconds = seconds_since(start_);
+    context_.peak_memory_bytes = peak_memory_bytes();
+    progress_.clear();
+    if (!request_.report_path.empty()) write_report(request_.report_path, *hull_, context_);
+    if (!request_.curve_path.empty())
+      write_trade_curve(curve_paths(request_.curve_path), curve_,
+                        request_.options.unit_cube ? "unit cube" : "input");
   }
-  return interrupt.requested() ? kInterruptedExitCode : 0;
-}
+
+  const HullRequest& request_;
+  const ProcessGroup* group_;
+  Clock::time_point start_;
+  std::vector<NamedOutput> outputs_;
+  Interrupt interrupt_;
+  ProgressLine progress_;
+  tbb::task_arena arena_;
+  std::optional<HullInput> input_;
+  HullOptions hull_options_;
+  std::optional<Hull> hull_;
+  ReportContext context_;  // with what follows
+  std::optional<Verification> verification_;
+  std::optional<FacetSelection> selection_;
+  std::optional<OuterVolume> outer_volume_;
+  std::optional<OuterDistance> outer_distance_;
+  std::vector<TradePoint> curve_;
+};
 
 /// One of several processes.
 int run_in_group(HullRequest request, const ProcessGroup& group, Clock::time_point start) {
@@ -355,7 +336,8 @@ int run_in_group(HullRequest request, const ProcessGroup& group, Clock::time_poi
                   fmt::format("{}: found {} processes, expected one; start it without mpirun",
                               request.formats.empty() ? "--curve" : "--format", group.size()));
     }
-    return run_process(group.is_first() ? request : silent(request), &group, start);
+    const HullRequest own = group.is_first() ? request : silent(request);
+    return HullRun(own, &group, start).run();
   } catch (const Error&) {
     if (group.is_first()) throw;
     return 0;  // the first process prints it for all, before mpirun ends them for its exit code
@@ -368,7 +350,7 @@ int run_hull(const HullRequest& request) {
   const Clock::time_point start = Clock::now();
   std::unique_ptr<ProcessGroup> group;
   if (!request.shards_pattern.empty()) group = join_processes();
-  return group == nullptr ? run_process(request, nullptr, start) : run_in_group(request, *group, start);
+  return group == nullptr ? HullRun(request, nullptr, start).run() : run_in_group(request, *group, start);
 }
 
 }  // namespace ndhull

@@ -81,9 +81,11 @@ std::string hull_summary(const Hull& hull, const ReportContext& context) {
   for (std::size_t phase = 0; phase < statistics.seconds.size(); ++phase) {
     text += fmt::format(", {} {:.2f}", to_string(static_cast<Phase>(phase)), statistics.seconds[phase]);
   }
-  if (context.verification != nullptr) {
-    text += fmt::format(", verify {:.2f}", context.verify_seconds);
-  }
+  if (context.verification != nullptr) text += fmt::format(", verify {:.2f}", context.verify_seconds);
+  constexpr double kShown = 0.005;  // seconds; less is 0.00
+  if (context.select_seconds >= kShown) text += fmt::format(", select {:.2f}", context.select_seconds);
+  if (context.outer_volume_seconds >= kShown)
+    text += fmt::format(", outer volume {:.2f}", context.outer_volume_seconds);
   text += fmt::format("\nmemory    {}\n", format_byte_count(context.peak_memory_bytes));
   if (context.verification != nullptr) {
     text += fmt::format("verified  {}\n",

@@ -57,6 +57,14 @@ std::string help_of(const CLI::App& app) {
   return chosen.empty() ? "ndhull --help" : "ndhull " + chosen.front()->get_name() + " --help";
 }
 
+/// `help` and `help COMMAND` are --help.
+std::vector<std::string> without_help_command(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  arguments.emplace_back("--help");
+  return arguments;
+}
+
 /// The words of a message of CLI11 before and behind `part`; empty ones where it is not in there.
 std::pair<std::string, std::string> parted_at(const std::string& message, std::string_view part) {
   const std::size_t at = message.find(part);
@@ -109,7 +117,8 @@ void parse(CLI::App& app, std::vector<std::string> words) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(const std::vector<std::string>& words_given) {
+  const std::vector<std::string> arguments = without_help_command(words_given);
   // Of more threads than cores TBB would start but as many as there are cores, and say so on standard error.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
   int exit_code = 0;

@@ -97,14 +97,14 @@ class WalkEnds {
   }
 
   /// Asks about points, whose ids are those of the shooter.
-  void ask(std::span<const std::uint32_t> ids, std::stop_token stop) {
+  void ask(std::span<const std::uint32_t> ids, const WorkEnd& end) {
     const std::size_t rank = shooter_.frame().rank;
     std::vector<WalkTask> tasks;
     for (const std::uint32_t id : ids) {
       const double* const point = shooter_.points().row(id);
       tasks.push_back({.direction = {point, point + rank}, .skip = id, .asks_inside = true});
     }
-    std::vector<WalkResult> walks = shooter_.walk(tasks, std::move(stop));
+    std::vector<WalkResult> walks = shooter_.walk(tasks, {}, end);
     for (std::size_t row = 0; row < tasks.size(); ++row) note(ids[row], walks[row]);
   }
 
@@ -131,7 +131,6 @@ class WalkEnds {
 
   std::vector<PartingPlane> found;
   std::vector<std::uint32_t> inside, open;  // complete after settle_inside
-  bool was_stopped = false;
 
  private:
   struct InsidePoint {
@@ -159,7 +158,7 @@ class WalkEnds {
                                                                  walk.plane.begin(), 0.0));
         found.push_back(to_input_.map(id, walk.plane, walk.level, walk.gap));
         return;
-      case WalkEnd::kNotBegun: was_stopped = true; return;
+      case WalkEnd::kNotBegun: return;
       case WalkEnd::kFacet:
       case WalkEnd::kOpen: open.push_back(id); return;
     }
@@ -187,7 +186,11 @@ class WalkEnds {
 class ExtremeSearch {
  public:
   ExtremeSearch(const PointView& points, const ExtremeOptions& options, Clock::time_point start)
-      : points_(points), options_(options), start_(start), seen_(points), shooter_(seen_.view, kNear) {
+      : points_(points),
+        options_(options),
+        end_(options.max_seconds, options.stop, start),
+        seen_(points),
+        shooter_(seen_.view, kNear) {
     stands_for_.assign(shooter_.copy_of().begin(), shooter_.copy_of().end());
     is_inside_.assign(points.rows, 0);
   }
@@ -219,13 +222,8 @@ class ExtremeSearch {
   }
 
  private:
-  bool is_late() const {
-    return options_.stop.stop_requested() ||
-           (options_.max_seconds > 0.0 && seconds_since(start_) > options_.max_seconds);
-  }
-
   bool is_over(ExtremePoints& result) const {
-    if (!is_late()) return false;
+    if (!end_.is_here()) return false;
     result.status = options_.stop.stop_requested() ? ExtremeStatus::kInterrupted : ExtremeStatus::kTimeLimit;
     return true;
   }
@@ -238,14 +236,14 @@ class ExtremeSearch {
     WalkEnds walks(seen_.view, seen_.origin, shooter_);
     std::size_t first = 0;
     for (; first < count && !is_over(result); first += kBatch) {
-      walks.ask(std::span(ids).subspan(first, std::min(kBatch, count - first)), options_.stop);
+      walks.ask(std::span(ids).subspan(first, std::min(kBatch, count - first)), end_);
       if (options_.progress) {
         options_.progress("vertices " + std::to_string(walks.found.size()) + ", points left " +
                           std::to_string(count - std::min(first + kBatch, count)));
       }
     }
     walks.settle_inside();
-    if (walks.was_stopped) result.status = ExtremeStatus::kInterrupted;
+    is_over(result);
     for (const std::uint32_t id : walks.inside) is_inside_[id] = 1;
     planes_ = std::move(walks.found);
     std::sort(walks.open.begin(), walks.open.end());
@@ -279,9 +277,9 @@ class ExtremeSearch {
     if (among.frame().rank != rank) return;
     WalkEnds walks(some, seen_.origin, among);
     for (std::uint32_t i = 0; i < known; ++i) walks.take_as_known(i);
-    walks.ask(asked, options_.stop);
+    walks.ask(asked, end_);
     walks.settle_inside();
-    if (walks.was_stopped) result.status = ExtremeStatus::kInterrupted;
+    is_over(result);
     for (const std::uint32_t i : walks.inside) is_inside_[among_ids[i]] = 1;
     for (PartingPlane& plane : walks.found) {
       plane.vertex = among_ids[plane.vertex];
@@ -295,7 +293,7 @@ class ExtremeSearch {
               [](const PartingPlane& a, const PartingPlane& b) { return a.vertex < b.vertex; });
     const std::span<const double> in_frame(shooter_.points().coordinates, points_.rows * frame().rank);
     const bool is_whole = settle_planes(
-        points_, in_frame, near(), [this] { return is_late(); }, planes_);
+        points_, in_frame, near(), [this] { return end_.is_here(); }, planes_);
     if (!is_whole) is_over(result);
   }
 
@@ -330,7 +328,7 @@ class ExtremeSearch {
 
   const PointView& points_;
   const ExtremeOptions& options_;
-  Clock::time_point start_;
+  WorkEnd end_;
   NearOrigin seen_;
   RayShooter shooter_;
   std::vector<PartingPlane> planes_;

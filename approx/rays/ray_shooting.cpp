@@ -228,13 +228,13 @@ bool RayShooter::separates(Walker& walker, const DirectionQuery& answer) const {
   return walker.tries_to_separate;
 }
 
-void RayShooter::walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const {
+void RayShooter::walk_on_core(std::span<Walker*> walkers, const WorkEnd& end, WalkCounters& counters) const {
   const std::size_t rank = frame_.rank;
   std::vector<Walker*> active(walkers.begin(), walkers.end());
   std::vector<float> directions;
   std::vector<DirectionQuery> queries;
   const std::size_t most_pivots = kMaxPivotsPerDimension * rank;
-  while (!active.empty()) {
+  while (!active.empty() && !end.is_here()) {
     directions.resize(active.size() * rank);
     queries.resize(active.size());
     for (std::size_t row = 0; row < active.size(); ++row) {
@@ -322,7 +322,8 @@ void RayShooter::decide(Walker& walker) const {
   result.basis = walker.walk.basis();
 }
 
-std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::stop_token stop) {
+std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::stop_token stop,
+                                         const WorkEnd& end) {
   const std::size_t rank = frame_.rank;
   std::vector<WalkResult> results(tasks.size());
   std::vector<Walker> window(std::min(kWindow, tasks.size()));
@@ -338,7 +339,7 @@ std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::s
       active.push_back(free_walkers.back());
       free_walkers.pop_back();
     }
-    if (active.empty()) break;
+    if (active.empty() || end.is_here()) break;
     const std::size_t groups = (active.size() + kWalksPerGroup - 1) / kWalksPerGroup;
     std::vector<WalkCounters> group_counters(groups);
     for_each_block(groups, 1, [&](std::size_t group, std::size_t) {
@@ -348,7 +349,7 @@ std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::s
         if (row >= last_old && !begin(tasks[walker.task], walker)) walker.state = Walker::State::kDone;
         if (walker.state == Walker::State::kOnCore) members.push_back(&walker);
       }
-      walk_on_core(members, group_counters[group]);
+      walk_on_core(members, end, group_counters[group]);
       for (Walker* const walker : members) {
         if (walker->state == Walker::State::kOnAll && !walker->walk.turns() &&
             !walker->walk.refresh(points())) {

@@ -21,6 +21,7 @@
 
 #include "approx/rays/cone_walk.h"
 #include "approx/rays/direction_scan.h"
+#include "approx/work_end.h"
 #include "core/frame.h"
 #include "core/points.h"
 
@@ -44,7 +45,7 @@ enum class WalkEnd {
   kInside,    ///< `direction` is in the hull (or above it by less than rounding)
   kOutside,   ///< asks_inside: all points are below the plane a.y = level, `direction` is above it
   kOpen,      ///< rounding or the limit of pivots ended the walk: nothing is known
-  kNotBegun,  ///< a stop was requested first
+  kNotBegun,  ///< or not ended: it was time to stop first
 };
 
 struct WalkResult {
@@ -93,8 +94,9 @@ class RayShooter {
 
   /// Walks. Precondition: rank >= 2.
   /// Returns   one result a task, in order. A stop request leaves those not begun; those begun are ended,
-  ///           so that what rays hit stays a fair sample.
-  std::vector<WalkResult> walk(std::span<const WalkTask> tasks, std::stop_token stop = {});
+  ///           so that what rays hit stays a fair sample. `end` leaves both.
+  std::vector<WalkResult> walk(std::span<const WalkTask> tasks, std::stop_token stop = {},
+                               const WorkEnd& end = {});
 
   /// Adds a point to the core.
   void add_to_core(std::uint32_t id);
@@ -104,7 +106,7 @@ class RayShooter {
   void fill_tiles(double near);
   std::vector<std::uint32_t> find_centre(const PointView& points);
   bool begin(const WalkTask& task, Walker& walker) const;
-  void walk_on_core(std::span<Walker*> walkers, WalkCounters& counters) const;
+  void walk_on_core(std::span<Walker*> walkers, const WorkEnd& end, WalkCounters& counters) const;
   bool ends_inside(Walker& walker) const;
   bool separates(Walker& walker, const DirectionQuery& answer) const;
   void decide(Walker& walker) const;

@@ -267,12 +267,21 @@ def test_progress_is_for_standard_error():
     assert run("hull", path, "--report", "-").stderr == ""
 
 
+def test_an_outer_volume_that_is_asked_for_is_printed_beside_files():
+    folder = fresh_folder("outer_beside_files")
+    rbox("60 s D4 t1", folder / "points.npy")
+    words = ["hull", folder / "points.npy", "--width", "20%", "--planes", folder / "planes.txt"]
+    assert "outer " not in run(*words).stdout
+    assert "outer " in run(*words, "--outer-volume").stdout
+
+
 def test_help_has_an_example_for_each_command():
     commands = ["hull", "generate", "rbox", "verify"]
     listing = run("--help").stdout
     for command in commands:
         assert command in listing and f"Example: ndhull {command if command != 'verify' else 'hull'}" in run(
             command, "--help").stdout  # fmt: skip
+    assert run("help").stdout == listing and run("help", "hull").stdout == run("hull", "--help").stdout
     assert run("--version").stdout.startswith("ndhull ")
 
 

@@ -102,6 +102,17 @@ TEST(FlatRegression, FarFromTheOriginNoPointIsAboveAPlane) {
   }
 }
 
+// A column whose digits are nearly used up by an offset says nothing about how rough the others are.
+TEST(FlatRegression, ARoughColumnHidesNoOther) {
+  const PointSet set = family_points(PointFamily::kGaussian, 500, 5, 1);
+  for (const double offset : {1e14, 1e15, 1e16}) {
+    PointSet moved = set;
+    for (std::size_t row = 0; row < set.rows(); ++row) moved.row(row)[0] += offset;
+    const Hull hull = hull_of(moved);
+    EXPECT_GE(hull.rank, offset == 1e14 ? 5U : 4U) << offset;
+  }
+}
+
 TEST(FlatExample, CubesInSubspacesAreCubes) {
   for (std::size_t d = 2; d <= 7; ++d) {
     for (std::size_t rank = 1; rank < d; ++rank) {

@@ -220,108 +220,122 @@ void check_combination(const RboxCommand& c, bool is_l, bool is_x) {
   if (c.is_lens && c.dimension == 1 && !c.is_sphere) refuse("'Ln' without 's' needs 2-d or more");
 }
 
+/// What the options say, before they are put together.
+struct Options {
+  std::int64_t seed, count = 0, dimension = 3;
+  bool uses_time = false;  // for a seed
+  bool is_l = false, is_x = false, has_box = false;
+  std::vector<std::vector<double>> points;
+};
+
+void check_text(const std::string& text) {
+  if (text == "rbox D4") refuse("'D4' alone starts a self-test of the program rbox; add a count, 'D4 50'");
+  if (text.size() > kMaxCommandLength) refuse("a command of more than 180 characters is not reproduced");
+  if (text.find_first_of("\"'\\") != std::string::npos) refuse("quoted words are not reproduced");
+}
+
+/// One option, from its letter on.
+void read_option(Reader& reader, RboxCommand& c, Options& options) {
+  const std::string place = reader.rest();
+  const char letter = reader.peek();
+  reader.skip();
+  switch (letter) {
+    case 'c':
+      c.has_cube = true;
+      c.cube_size = solid_size(reader, c.cube_size);
+      break;
+    case 'd':
+      c.has_diamond = true;
+      c.diamond_size = solid_size(reader, c.diamond_size);
+      break;
+    case 'h': c.is_homogeneous = true; break;
+    case 'l': options.is_l = true; break;
+    case 'n': c.hides_command = true; break;
+    case 'r': c.is_regular = true; break;
+    case 's': c.is_sphere = true; break;
+    case 't':
+      options.uses_time = !is_digit(reader.peek());
+      options.seed = read_seed(reader, options.uses_time);
+      break;
+    case 'x': options.is_x = true; break;
+    case 'y': c.print_simplex = true; break;
+    case 'z': c.is_integer = true; break;
+    case 'B':
+      options.has_box = true;
+      c.box = reader.number<double>().value_or(0.0);
+      break;
+    case 'C': read_copies(reader, c); break;
+    case 'D': options.dimension = reader.number<std::int64_t>().value_or(0); break;
+    case 'G':
+      c.has_gap = true;
+      c.gap = number_if_digit(reader).value_or(c.gap);
+      break;
+    case 'L':
+      c.is_lens = true;
+      c.lens_radius = number_if_digit(reader).value_or(c.lens_radius);
+      break;
+    case 'M': read_mesh(reader, c); break;
+    case 'O': c.offset = reader.number<double>().value_or(0.0); break;
+    case 'P': options.points.push_back(read_point(reader)); break;
+    case 'W':
+      c.has_width = true;
+      c.width = reader.number<double>().value_or(0.0);
+      break;
+    case 'Z':
+      c.is_axis = true;
+      c.axis_radius = number_if_digit(reader).value_or(c.axis_radius);
+      break;
+    default: refuse("unknown argument '" + place + "'; see 'ndhull rbox --help'");
+  }
+  if (!reader.at_gap()) refuse("a blank is missing between arguments at '" + reader.rest() + "'");
+}
+
+Options read_options(const std::string& text, RboxCommand& c) {
+  Options options{.seed = hash_of(text), .points = {}};
+  Reader reader(text);
+  for (reader.skip_blanks(); !reader.at_end(); reader.skip_blanks()) {
+    if (reader.skip_if('-')) continue;  // rbox takes -s for s
+    if (is_digit(reader.peek())) {      // an option may follow at once
+      options.count = reader.number<std::int64_t>().value_or(0);
+      if (options.count > kMaxPoints) refuse("more than 2147483647 points");
+    } else {
+      read_option(reader, c, options);
+    }
+  }
+  return options;
+}
+
+void settle_numbers(RboxCommand& c, const Options& options) {
+  if (options.dimension < 1 || options.dimension > static_cast<std::int64_t>(kMaxDimension))
+    refuse("dimension " + std::to_string(options.dimension) + " of 'D' is outside 1 .. 200");
+  c.dimension = static_cast<std::size_t>(options.dimension);
+  c.count = static_cast<std::size_t>(options.count);
+  c.seed = static_cast<std::int32_t>(std::clamp<std::int64_t>(options.seed, 1, kSeedModulus - 1));
+  if (options.uses_time) write_seed(c, options.seed);
+  for (const std::vector<double>& point : options.points) {
+    if (point.size() > c.dimension)
+      refuse("'Pn,m,..' has more than " + std::to_string(c.dimension) + " coordinates");
+    c.explicit_points.insert(c.explicit_points.end(), point.begin(), point.end());
+    c.explicit_points.resize(c.explicit_points.size() + c.dimension - point.size(), 0.0);
+  }
+  if (c.is_integer && !options.has_box) c.box = kIntegerBox;
+  if (c.cube_size == 0.0) c.cube_size = c.box;
+  if (c.diamond_size == 0.0) c.diamond_size = c.box;
+}
+
 }  // namespace
 
 RboxCommand parse_rbox(std::string_view arguments) {
   RboxCommand c;
   c.text = join_words(arguments);
-  if (c.text == "rbox D4") refuse("'D4' alone starts a self-test of the program rbox; add a count, 'D4 50'");
-  if (c.text.size() > kMaxCommandLength) refuse("a command of more than 180 characters is not reproduced");
-  if (c.text.find_first_of("\"'\\") != std::string::npos) refuse("quoted words are not reproduced");
-
-  std::int64_t seed = hash_of(c.text);
-  std::int64_t count = 0;
-  std::int64_t dimension = 3;
-  bool is_l = false;
-  bool is_x = false;
-  bool uses_time = false;
-  bool has_box = false;
-  std::vector<std::vector<double>> points;
-  const std::string text = c.text;
-  Reader reader(text);
-  for (reader.skip_blanks(); !reader.at_end(); reader.skip_blanks()) {
-    if (reader.skip_if('-')) continue;  // rbox takes -s for s
-    if (is_digit(reader.peek())) {
-      count = reader.number<std::int64_t>().value_or(0);
-      if (count > kMaxPoints) refuse("more than 2147483647 points");
-      continue;  // an option may follow at once
-    }
-    const std::string place = reader.rest();
-    const char letter = reader.peek();
-    reader.skip();
-    switch (letter) {
-      case 'c':
-        c.has_cube = true;
-        c.cube_size = solid_size(reader, c.cube_size);
-        break;
-      case 'd':
-        c.has_diamond = true;
-        c.diamond_size = solid_size(reader, c.diamond_size);
-        break;
-      case 'h': c.is_homogeneous = true; break;
-      case 'l': is_l = true; break;
-      case 'n': c.hides_command = true; break;
-      case 'r': c.is_regular = true; break;
-      case 's': c.is_sphere = true; break;
-      case 't':
-        uses_time = !is_digit(reader.peek());
-        seed = read_seed(reader, uses_time);
-        break;
-      case 'x': is_x = true; break;
-      case 'y': c.print_simplex = true; break;
-      case 'z': c.is_integer = true; break;
-      case 'B':
-        has_box = true;
-        c.box = reader.number<double>().value_or(0.0);
-        break;
-      case 'C': read_copies(reader, c); break;
-      case 'D': dimension = reader.number<std::int64_t>().value_or(0); break;
-      case 'G':
-        c.has_gap = true;
-        c.gap = number_if_digit(reader).value_or(c.gap);
-        break;
-      case 'L':
-        c.is_lens = true;
-        c.lens_radius = number_if_digit(reader).value_or(c.lens_radius);
-        break;
-      case 'M': read_mesh(reader, c); break;
-      case 'O': c.offset = reader.number<double>().value_or(0.0); break;
-      case 'P': points.push_back(read_point(reader)); break;
-      case 'W':
-        c.has_width = true;
-        c.width = reader.number<double>().value_or(0.0);
-        break;
-      case 'Z':
-        c.is_axis = true;
-        c.axis_radius = number_if_digit(reader).value_or(c.axis_radius);
-        break;
-      default: refuse("unknown argument '" + place + "'; see 'ndhull rbox --help'");
-    }
-    if (!reader.at_gap()) refuse("a blank is missing between arguments at '" + reader.rest() + "'");
-  }
-
-  if (dimension < 1 || dimension > static_cast<std::int64_t>(kMaxDimension)) {
-    refuse("dimension " + std::to_string(dimension) + " of 'D' is outside 1 .. 200");
-  }
-  c.dimension = static_cast<std::size_t>(dimension);
-  c.count = static_cast<std::size_t>(count);
-  c.seed = static_cast<std::int32_t>(std::clamp<std::int64_t>(seed, 1, kSeedModulus - 1));
-  if (uses_time) write_seed(c, seed);
-
-  for (const std::vector<double>& point : points) {
-    if (point.size() > c.dimension)
-      refuse("'Pn,m,..' has more than " + std::to_string(dimension) + " coordinates");
-    c.explicit_points.insert(c.explicit_points.end(), point.begin(), point.end());
-    c.explicit_points.resize(c.explicit_points.size() + c.dimension - point.size(), 0.0);
-  }
-  if (c.is_integer && !has_box) c.box = kIntegerBox;
-  if (c.cube_size == 0.0) c.cube_size = c.box;
-  if (c.diamond_size == 0.0) c.diamond_size = c.box;
-  c.is_simplex = is_x || c.print_simplex;
-  check_combination(c, is_l, is_x);
-  settle_counts(c, is_l, is_x);
-  c.is_spiral = is_l && !c.is_regular;
-  c.print_simplex = c.print_simplex && !is_x;
+  check_text(c.text);
+  const Options options = read_options(std::string(c.text), c);
+  settle_numbers(c, options);
+  c.is_simplex = options.is_x || c.print_simplex;
+  check_combination(c, options.is_l, options.is_x);
+  settle_counts(c, options.is_l, options.is_x);
+  c.is_spiral = options.is_l && !c.is_regular;
+  c.print_simplex = c.print_simplex && !options.is_x;
   return c;
 }
 
