@@ -57,6 +57,21 @@ def test_names_that_are_numbers():
         assert report_of(FOLDER / "missing.csv", "--columns", "2,3")["input"]["points"] == 3, first
 
 
+def test_a_header_without_a_name_for_row_names():
+    # As R writes tables. A row that only ends with one separator more is none of these.
+    for separator in (" ", ",", "\t"):
+        for first in ('"1"', "sp_1"):
+            path = FOLDER / "from_r.txt"
+            rows = [["a", "b"], [first, "0", "1"], ["sp_2", "1", "1"], ["sp_3", "2", "5"]]
+            path.write_text("\n".join(separator.join(row) for row in rows))
+            for columns in ("a,b", "2,3"):
+                report = report_of(path, "--columns", columns)
+                assert report["input"]["points"] == 3 and report["volume"] == 2.0, (separator, first, columns)
+            one_error_line(run("hull", path, exit_code=1), "bad-header")
+    (FOLDER / "ends.csv").write_text("a,b\n1,2,\n3,4,\n5,7,\n")
+    one_error_line(run("hull", FOLDER / "ends.csv", "--columns", "a,b", exit_code=1), "ragged-row")
+
+
 def test_contains_and_verify():
     rbox("300 s D4 t1", FOLDER / "points.npy")
     queries = rbox("2000 D4 t2", FOLDER / "queries.npy")

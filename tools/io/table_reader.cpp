@@ -221,16 +221,31 @@ bool are_counted(std::span<const std::string> numbers) {
   return true;
 }
 
+/// Fields of the first row under a line; none: there is none.
+std::vector<std::string> fields_below(const TextSource& source, const FieldLine& line) {
+  const char* const below = line.end == source.end() ? line.end : skip_empty_lines(source, line.end + 1);
+  if (below == source.end()) return {};
+  std::vector<std::string> values =
+      split({below, static_cast<std::size_t>(source.line_end(below) - below)}, line.separator);
+  while (!values.empty() && !values.back().empty() && values.back().back() == '\r') values.back().pop_back();
+  return values;
+}
+
+/// R writes no name above the names of rows, which are text or quoted.
+bool lacks_name_of_rows(std::span<const std::string> fields, const TextSource& source,
+                        const FieldLine& line) {
+  const std::vector<std::string> values = fields_below(source, line);
+  if (values.size() != fields.size() + 1 || !is_number(values.back())) return false;
+  return !is_number(values.front()) || *skip_empty_lines(source, line.end + 1) == '"';
+}
+
 /// Columns that are counted behind others with names, or behind one without: a point whose other values are
 /// text looks like that as well, but the rows below have numbers there.
 bool is_header_by_column(std::span<const std::string> fields, const TextSource& source,
                          const FieldLine& line) {
-  const char* const below = line.end == source.end() ? line.end : skip_empty_lines(source, line.end + 1);
-  if (line.separator == kBlanks || below == source.end()) return false;
-  const auto length = static_cast<std::size_t>(source.line_end(below) - below);
-  std::vector<std::string> values = split({below, length}, line.separator);
+  if (line.separator == kBlanks) return false;
+  const std::vector<std::string> values = fields_below(source, line);
   if (values.size() != fields.size()) return false;
-  while (!values.back().empty() && values.back().back() == '\r') values.back().pop_back();
   const auto first = std::ranges::find_if(fields, is_number);
   const auto named = static_cast<std::size_t>(first - fields.begin());
   if (named == 0 || !are_counted(fields.subspan(named))) return false;
@@ -259,6 +274,7 @@ TableLayout read_first_line(const TextSource& source, const char* line, const ch
                        (!choice.is_all() && is_header_by_column(fields, source, first))) &&
                       !(choice.is_all() && is_missing_row(fields));
   if (layout.has_header) {
+    if (lacks_name_of_rows(fields, source, first)) fields.insert(fields.begin(), "");
     layout.columns = fields.size();
   } else {
     fields.clear();
