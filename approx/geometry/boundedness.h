@@ -9,6 +9,9 @@
 
 namespace ndhull {
 
+/// So many facets of which none is wider than the hull is high everywhere bound a region.
+inline constexpr std::size_t kSurelyBounded = 1000;
+
 /// Where the polyhedron {x : normal_i . x <= offset_i} goes to infinity, whatever the offsets are.
 struct Boundedness {
   bool bounded = false;

@@ -137,9 +137,6 @@ class CertifiedGrowth {
   void release_coordinates() { coordinates_ = HugeArray<double>(); }
 
  private:
-  /// Points further inside than this need no look at their distance from each plane. [ratio]
-  static constexpr double kWellInside = 1e-9;
-
   void start();
   void report_counters();
   GrowthStop poll(std::uint64_t points_left, double furthest);

@@ -3,16 +3,10 @@
 #include <algorithm>
 
 #include "core/machine/prefetch.h"
+#include "core/scramble.h"
 
 namespace ndhull {
 namespace {
-
-std::uint64_t mixed(std::uint64_t id) {  // splitmix64's output function
-  std::uint64_t z = (id + 1) * 0x9E37'79B9'7F4A'7C15u;
-  z = (z ^ (z >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D0'49BB'1331'11EBu;
-  return z ^ (z >> 31);
-}
 
 /// A set of planes that is looked up: face `face` of the level below without its plane `left_out`.
 struct FaceKey {
@@ -90,7 +84,8 @@ class FaceIndex {
 
 FaceLevels::FaceLevels(const PlanesAboutOrigin& planes, const PlanePolytope& polytope, const WorkEnd& end)
     : polytope_(polytope), end_(end), rank_(planes.rank) {
-  for (std::size_t id = 0; id < planes.heights.size(); ++id) plane_hash_.push_back(mixed(id));
+  for (std::size_t id = 0; id < planes.heights.size(); ++id)
+    plane_hash_.push_back(scramble(id * kScrambleStep));
 }
 
 FaceLevel FaceLevels::vertices() const {

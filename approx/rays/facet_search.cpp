@@ -8,6 +8,7 @@
 #include "approx/geometry/orthonormal.h"
 #include "core/linear/dense_views.h"
 #include "core/machine/blocks.h"
+#include "core/scramble.h"
 
 namespace ndhull {
 namespace {
@@ -18,14 +19,8 @@ using Index = Eigen::Index;
 constexpr double kOneUnit = 4.0;
 
 std::uint64_t hash_of(std::span<const std::uint32_t> ids) {
-  std::uint64_t hash = 0x9E37'79B9'7F4A'7C15u;
-  for (const std::uint32_t id : ids) {
-    // The finishing steps of splitmix64 (Steele, Lea, Flood. OOPSLA 2014).
-    hash += id + 0x9E37'79B9'7F4A'7C15u;
-    hash = (hash ^ (hash >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-    hash = (hash ^ (hash >> 27)) * 0x94D0'49BB'1331'11EBu;
-    hash ^= hash >> 31;
-  }
+  std::uint64_t hash = kScrambleStep;
+  for (const std::uint32_t id : ids) hash = scramble(hash + id);
   return hash;
 }
 

@@ -241,7 +241,7 @@ class Reduction {
     const std::vector<LocatedPoint> located = try_inside(work_.complex, coordinates_.data(), ball_, ids);
     const auto inside =
         static_cast<std::size_t>(std::count_if(located.begin(), located.end(), [](const LocatedPoint& point) {
-          return point.gauge < -kDroppedInside;
+          return point.gauge < -kWellInside;
         }));
     return inside * kWorthAPass >= ids.size();
   }
@@ -291,7 +291,7 @@ class Reduction {
       map_points(PointView::row_major(rows.data(), ids.size(), dimension), frame_, mapped.data());
       try_inside(work_.complex, coordinates_.data(), ball_, mapped.data(), located);
       for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (located[i].gauge < -kDroppedInside) {
+        if (located[i].gauge < -kWellInside) {
           candidates.drop(ids[i]);
           continue;
         }

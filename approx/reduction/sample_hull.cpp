@@ -30,7 +30,7 @@ bool holds_some_of(const PointView& sample, std::uint64_t seed) {
   const HullBall ball = find_ball(sample.dimension, coordinates.data(), sample.rows, frame.simplex);
   const std::vector<LocatedPoint> located = try_inside(work.complex, coordinates.data(), ball, ids);
   return std::any_of(located.begin(), located.end(),
-                     [](const LocatedPoint& point) { return point.gauge < -kDroppedInside; });
+                     [](const LocatedPoint& point) { return point.gauge < -kWellInside; });
 }
 
 }  // namespace ndhull

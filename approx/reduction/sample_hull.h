@@ -8,9 +8,6 @@
 
 namespace ndhull {
 
-/// A point this far inside a hull may be dropped. [ratio] As CertifiedGrowth has it.
-inline constexpr double kDroppedInside = 1e-9;
-
 /// Is a point of a small sample inside a small hull of it? If none is, as on spheres, a larger hull holds
 /// hardly any either.
 ///

@@ -22,8 +22,6 @@ using Index = Eigen::Index;
 /// A vertex that is nearer than this to the hull of the others is left out too: seen from it, others would
 /// lie in directions that rounding decides. [ratio of the size]
 constexpr double kClearVertex = 1e-7;
-/// So many facets that are narrower than the hull bound a region.
-constexpr std::size_t kSurelyBounding = 1000;
 
 /// Which points are vertices, and in which direction each is furthest.
 struct ChosenVertices {
@@ -35,7 +33,7 @@ struct ChosenVertices {
 
 bool bounds_region(const RowFacets& facets, std::size_t rank) {
   if (facets.count() <= rank) return false;
-  return facets.count() > kSurelyBounding ||
+  return facets.count() > kSurelyBounded ||
          (find_open_direction(facets.planes, rank).bounded && !find_far_reach(facets.planes, rank));
 }
 

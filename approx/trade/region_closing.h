@@ -5,15 +5,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "approx/geometry/boundedness.h"
 #include "approx/slabs/covering.h"
 #include "approx/slabs/width_space.h"
 #include "core/complex/simplicial_complex.h"
 #include "core/ids.h"
 
 namespace ndhull {
-
-/// So many facets of which none is wider than the hull is high everywhere bound a region.
-inline constexpr std::size_t kSurelyBounded = 1000;
 
 /// Do the facets' planes bound a region that is not a thousand times the hull? Of more
 /// than kSurelyBounded facets: yes.

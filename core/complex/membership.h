@@ -30,6 +30,10 @@ struct HullBall {
   double reach = 0.0;         ///< longest point
 };
 
+/// Points further inside than this, by their gauge, need no look at their distance from each plane and may be
+/// dropped. [ratio]
+inline constexpr double kWellInside = 1e-9;
+
 /// Products that looking for better simplices everywhere may cost.
 inline constexpr double kSearchProducts = 1e10;
 

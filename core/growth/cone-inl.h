@@ -215,7 +215,7 @@ HWY_INLINE std::size_t Grower<D>::list_subridges(std::size_t index, std::uint64_
   const std::uint32_t* around = neighbours(row);
   alignas(64) std::uint64_t key_of[(D + 7) / 8 * 8];
   for (std::size_t k = 0; k < D; k += lanes)
-    hn::Store(scramble(tag, hn::PromoteTo(tag, hn::LoadU(ids_tag, ids + k))), tag, key_of + k);
+    hn::Store(scramble_lanes(tag, hn::PromoteTo(tag, hn::LoadU(ids_tag, ids + k))), tag, key_of + k);
   key_of[apex_slot] = 0;
   std::uint64_t all = 1;
   for (std::size_t k = 0; k < D; ++k) all ^= key_of[k];

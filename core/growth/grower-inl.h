@@ -33,6 +33,7 @@
 #include "core/growth/sharing_choice.h"
 #include "core/machine/blocks.h"
 #include "core/machine/team.h"
+#include "core/scramble.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -51,16 +52,9 @@ HWY_INLINE double gauge_above(const double* HWY_RESTRICT plane, const double* HW
   return even + odd;
 }
 
-HWY_INLINE std::uint64_t scramble(std::uint64_t x) {  // splitmix64 (Steele, Lea, Flood, 2014)
-  x += 0x9E37'79B9'7F4A'7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D0'49BB'1331'11EBu;
-  return x ^ (x >> 31);
-}
-
 template <class Tag, class Vec = hn::Vec<Tag>>
-HWY_INLINE Vec scramble(Tag tag, Vec x) {  // the same, of each lane
-  x = hn::Add(x, hn::Set(tag, 0x9E37'79B9'7F4A'7C15u));
+HWY_INLINE Vec scramble_lanes(Tag tag, Vec x) {  // scramble, of each lane
+  x = hn::Add(x, hn::Set(tag, kScrambleStep));
   x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(tag, 0xBF58'476D'1CE4'E5B9u));
   x = hn::Mul(hn::Xor(x, hn::ShiftRight<27>(x)), hn::Set(tag, 0x94D0'49BB'1331'11EBu));
   return hn::Xor(x, hn::ShiftRight<31>(x));

@@ -10,16 +10,10 @@
 #include "core/frame.h"
 #include "core/growth/growth.h"
 #include "core/machine/blocks.h"
+#include "core/scramble.h"
 
 namespace ndhull {
 namespace {
-
-std::uint64_t scrambled(std::uint64_t x) {  // splitmix64 (Steele, Lea, Flood, 2014)
-  x += 0x9E37'79B9'7F4A'7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D0'49BB'1331'11EBu;
-  return x ^ (x >> 31);
-}
 
 /// Numbers of simplices and sums of their random numbers.
 struct StarSums {
@@ -97,19 +91,19 @@ class VertexFigure {
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
       Others others;
-      std::uint64_t number = scrambled(vertex_);
+      std::uint64_t number = scramble(vertex_);
       bool is_first = true;
       for (std::size_t k = 0; k < kFlat; ++k) {
         const std::uint32_t place = complex.vertices(SimplexId{row})[k].value;
         others[k] = static_cast<std::uint16_t>(place + (place >= vertex_ ? 1u : 0u));
-        number += scrambled(others[k]);
+        number += scramble(others[k]);
         is_first = is_first && others[k] > vertex_;
       }
       ++sums.met;
-      sums.sum_met += scrambled(number);
+      sums.sum_met += scramble(number);
       if (!is_first) continue;
       ++sums.kept;
-      sums.sum_kept += scrambled(number);
+      sums.sum_kept += scramble(number);
       std::sort(others.begin(), others.end());
       found.push_back(others);
     }

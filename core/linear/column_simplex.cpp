@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/linear/dense_solve.h"
 #include "core/linear/dense_views.h"
+#include "core/scramble.h"
 
 namespace ndhull {
 namespace {
@@ -19,8 +20,9 @@ constexpr double kSmallestPivot = 1e-9;
 /// Values below this share of the largest are taken for 0, and ratios that differ by less for equal: some
 /// thousand times the rounding of a value when the basis is well conditioned.
 constexpr double kValueRoundoff = 1e-12;
-/// How far a trifle may be overdrawn for the sake of a larger pivot. Trifles start between 0.5 and 1.
-constexpr double kTrifleSlack = 1e-3;
+/// How far an entry of the perturbation may be overdrawn for the sake of a larger pivot. They start between 0.5
+/// and 1.
+constexpr double kPerturbationSlack = 1e-3;
 /// A factorisation with a smaller reciprocal condition has no digits left.
 constexpr double kSingular = 1e-14;
 
@@ -29,12 +31,10 @@ constexpr double kSingular = 1e-14;
 constexpr std::uint64_t kPatience = 250, kPatienceARow = 25;
 constexpr double kLooser = 100.0;
 
-/// splitmix64 (Steele, Lea, Flood. Fast splittable pseudorandom number generators. OOPSLA 2014).
 double next_unit(std::uint64_t& state) {
-  std::uint64_t z = (state += 0x9E37'79B9'7F4A'7C15u);
-  z = (z ^ (z >> 30)) * 0xBF58'476D'1CE4'E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D0'49BB'1331'11EBu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  const std::uint64_t number = scramble(state);
+  state += kScrambleStep;
+  return static_cast<double>(number >> 11) * 0x1p-53;
 }
 
 }  // namespace
@@ -110,13 +110,13 @@ void ColumnSimplex::leave_phase_one() {
   compute_duals();
 }
 
-/// A fresh second right side: whatever makes all trifles positive will do. Artificial columns of phase two
+/// A fresh second right side: whatever makes all of the perturbation positive will do. Artificial columns of phase two
 /// must stay at nothing at all.
 void ColumnSimplex::draw_perturbation() {
-  trifles_.resize(values_.size());
+  perturbation_.resize(values_.size());
   for (Index k = 0; k < values_.size(); ++k) {
     const bool held = phase_one_ || basis_[static_cast<std::size_t>(k)].valid();
-    trifles_[k] = held ? 0.5 + 0.5 * next_unit(random_state_) : 0.0;
+    perturbation_[k] = held ? 0.5 + 0.5 * next_unit(random_state_) : 0.0;
   }
 }
 
@@ -180,14 +180,15 @@ Index ColumnSimplex::choose_row(const Vector& alpha) const {
     if (alpha[k] > smallest) step = std::min(step, (values_[k] + roundoff) / alpha[k]);
   }
   const auto is_tied = [&](Index k) { return alpha[k] > smallest && values_[k] <= step * alpha[k]; };
-  double trifle_step = std::numeric_limits<double>::infinity();
-  // Trifles of rows that are not near 0 may be negative; among tied rows only the order matters.
+  double perturbation_step = std::numeric_limits<double>::infinity();
+  // Entries of rows that are not near 0 may be negative; among tied rows only the order matters.
   for (Index k = 0; k < alpha.size(); ++k) {
-    if (is_tied(k)) trifle_step = std::min(trifle_step, (trifles_[k] + kTrifleSlack) / alpha[k]);
+    if (is_tied(k))
+      perturbation_step = std::min(perturbation_step, (perturbation_[k] + kPerturbationSlack) / alpha[k]);
   }
   Index leaving = -1;
   for (Index k = 0; k < alpha.size(); ++k) {
-    if (!is_tied(k) || trifles_[k] > trifle_step * alpha[k]) continue;
+    if (!is_tied(k) || perturbation_[k] > perturbation_step * alpha[k]) continue;
     if (leaving < 0 || alpha[k] > alpha[leaving]) leaving = k;
   }
   return leaving;
@@ -196,16 +197,16 @@ Index ColumnSimplex::choose_row(const Vector& alpha) const {
 void ColumnSimplex::pivot(Index row, const LpColumn& column, const Vector& entries, const Vector& alpha) {
   const bool drives_out = !phase_one_ && !basis_[static_cast<std::size_t>(row)].valid();
   const double step = drives_out ? 0.0 : values_[row] / alpha[row];
-  const double trifle_step = trifles_[row] / alpha[row];
+  const double perturbation_step = perturbation_[row] / alpha[row];
   const double roundoff = kValueRoundoff * values_.maxCoeff();
   for (Index k = 0; k < alpha.size(); ++k) {
     const double value = values_[k] - step * alpha[k];
     values_[k] = value <= roundoff && value < values_[k] ? 0.0 : value;
-    trifles_[k] -= trifle_step * alpha[k];
-    if (values_[k] == 0.0) trifles_[k] = std::max(trifles_[k], 0.0);
+    perturbation_[k] -= perturbation_step * alpha[k];
+    if (values_[k] == 0.0) perturbation_[k] = std::max(perturbation_[k], 0.0);
   }
   values_[row] = step;
-  trifles_[row] = trifle_step;
+  perturbation_[row] = perturbation_step;
   const Eigen::RowVectorXd pivot_row = inverse_.row(row) / alpha[row];
   inverse_.noalias() -= alpha * pivot_row;
   inverse_.row(row) = pivot_row;
@@ -257,7 +258,7 @@ void ColumnSimplex::conclude() {
       return begin_phase_one();
     }
     for (Index k = 0; k < values_.size(); ++k) {
-      if (values_[k] == 0.0) trifles_[k] = std::max(trifles_[k], 0.0);
+      if (values_[k] == 0.0) perturbation_[k] = std::max(perturbation_[k], 0.0);
     }
     const bool lost = (values_.array() < 0.0).any();
     if (lost || (!phase_one_ && !is_feasible())) return begin_phase_one();

@@ -115,12 +115,12 @@ class ColumnSimplex {
 
   LpOptions options_;
   Vector rhs_;
-  Matrix columns_;    // of the basis
-  Matrix inverse_;    // of columns_
-  Vector values_;     // inverse_ * rhs_, zeros exact
-  Vector trifles_;    // the same of the second right side; >= 0 where values_ is 0
-  Vector costs_;      // of the basis, in this phase
-  Vector own_costs_;  // of the basis, the program's
+  Matrix columns_;       // of the basis
+  Matrix inverse_;       // of columns_
+  Vector values_;        // inverse_ * rhs_, zeros exact
+  Vector perturbation_;  // the same of the second right side; >= 0 where values_ is 0
+  Vector costs_;         // of the basis, in this phase
+  Vector own_costs_;     // of the basis, the program's
   Vector duals_;
   std::vector<LpColumnId> basis_;
   Vector ray_;

@@ -10,9 +10,8 @@
 namespace ndhull {
 namespace {
 
-constexpr double kBytesOfHalf = 127.5;
 /// Rounding to the next byte, and what double precision adds to it.
-constexpr double kByteRounding = 0.5 / kBytesOfHalf * (1.0 + 1e-9);
+constexpr double kByteRounding = 0.5 / BytePoints::kBytesOfHalf * (1.0 + 1e-9);
 
 }  // namespace
 

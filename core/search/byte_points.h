@@ -33,6 +33,8 @@ class BytePoints {
   /// Points of a tile, one a 16-bit lane where vectors are longest; tiles of a chunk, whose largest sum is
   /// looked at as one.
   static constexpr std::size_t kTile = 32, kTilesInChunk = 8;
+  /// A byte for each of so many parts of half a column's extent.
+  static constexpr double kBytesOfHalf = 127.5;
 
   /// Shapes  points: at least one row, of 1 to kMaxDimension numbers, which must outlive this; low, high: no
   ///         coordinate of a column is outside of them.

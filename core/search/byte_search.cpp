@@ -43,10 +43,9 @@ struct ByteDirection {
     constexpr double kAll = -32768.0, kNone = 32767.0;  // no sum is as large
     const double b = (best.dot - at_middle) * factor, along = b / length;
     const double across = along > 0.0 ? std::sqrt(std::max(reach * reach - along * along, 0.0)) : reach;
-    const double sum = zero + kBytesOfHalf * (scale * b - rest * across) - slack;
+    const double sum = zero + BytePoints::kBytesOfHalf * (scale * b - rest * across) - slack;
     least = static_cast<std::int32_t>(sum > kAll ? std::min(std::floor(sum), kNone) : kAll);
   }
-  static constexpr double kBytesOfHalf = 127.5;
 };
 
 /// What a search works with; memory that is used again.
@@ -123,8 +122,8 @@ inline void round_direction(const BytePoints& points, const double* normal, Byte
   direction.factor = std::isfinite(factor) ? factor : NAN;
   direction.length = std::sqrt(length_sq);
   direction.rest = std::sqrt(rest_sq);
-  direction.zero = ByteDirection::kBytesOfHalf * sum;
-  direction.slack = ByteDirection::kBytesOfHalf * (of_points + rounding);
+  direction.zero = BytePoints::kBytesOfHalf * sum;
+  direction.slack = BytePoints::kBytesOfHalf * (of_points + rounding);
   direction.reach = points.reach();
   direction.raise_least();
 }
