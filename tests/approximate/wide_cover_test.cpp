@@ -78,20 +78,35 @@ double depth_below(const GrownSphere& sphere, const FittedPlane& plane, std::uin
   return sphere.height(plane.normal) - low;
 }
 
+/// A covering of a sphere's simplices, and what it needs.
+struct WideSphere {
+  WideSphere(const char* words, std::uint32_t count)
+      : sphere(words, count),
+        complex(sphere.work.complex),
+        grower(complex, *sphere.space, nullptr, true),
+        seeds(complex, *sphere.space, true),
+        scratch([this] { return SlabScratch(*sphere.space); }),
+        wide(complex, *sphere.space, grower, seeds, [this]() -> SlabScratch& { return scratch.local(); }) {}
+
+  GrownSphere sphere;
+  const SimplicialComplex& complex;
+  SlabGrower grower;
+  SlabSeeds seeds;
+  tbb::enumerable_thread_specific<SlabScratch> scratch;
+  WideCover wide;
+};
+
 TEST(WideCoverLaw, EachSimplexIsInAFacetThatHoldsItMostlyTheOneWhereItIsHighest) {
-  const GrownSphere sphere("700 s D5 t3", 700);
-  const SimplicialComplex& complex = sphere.work.complex;
-  const SlabGrower grower(complex, *sphere.space, nullptr, true);
-  SlabSeeds seeds(complex, *sphere.space, true);
-  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
-  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
-  EXPECT_FALSE(wide.cover(0.01, CoverEffort{}).has_value()) << "few simplices in a slab";
+  WideSphere on("700 s D5 t3", 700);
+  const GrownSphere& sphere = on.sphere;
+  const SimplicialComplex& complex = on.complex;
+  EXPECT_FALSE(on.wide.cover(0.01, CoverEffort{}).has_value()) << "few simplices in a slab";
   for (const unsigned choices : {1u, 2u}) {
     const double width = 0.5;
-    const std::optional<Covering> covering = wide.cover(width, CoverEffort{.choices = choices});
+    const std::optional<Covering> covering = on.wide.cover(width, CoverEffort{.choices = choices});
     ASSERT_TRUE(covering.has_value());
     std::vector<float> depth_of(complex.row_count, -1.0f);
-    wide.find_depths(*covering, depth_of);
+    on.wide.find_depths(*covering, depth_of);
     std::size_t rows = 0, lower = 0;
     for (std::uint32_t row = 0; row < complex.row_count; ++row) {
       EXPECT_EQ(sphere.is_live(row), covering->facet_of[row] != kNone);
@@ -135,17 +150,14 @@ std::size_t count_cut_off(const SimplicialComplex& complex, const Covering& cove
 }
 
 TEST(WideCoverLaw, ManyFacetsHangTogether) {
-  const GrownSphere sphere("300 s D7 t3", 300);
-  const SimplicialComplex& complex = sphere.work.complex;
-  const SlabGrower grower(complex, *sphere.space, nullptr, true);
-  SlabSeeds seeds(complex, *sphere.space, true);
-  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
-  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
+  WideSphere on("300 s D7 t3", 300);
+  const GrownSphere& sphere = on.sphere;
+  const SimplicialComplex& complex = on.complex;
   const double width = 0.3;
-  const std::optional<Covering> covering = wide.cover(width, CoverEffort{});
+  const std::optional<Covering> covering = on.wide.cover(width, CoverEffort{});
   ASSERT_TRUE(covering.has_value());
   EXPECT_GT(covering->planes.size(), 256U);
-  EXPECT_FALSE(wide.has_strays());
+  EXPECT_FALSE(on.wide.has_strays());
   std::size_t live = 0;
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
     EXPECT_EQ(sphere.is_live(row), covering->facet_of[row] != kNone);
@@ -158,14 +170,11 @@ TEST(WideCoverLaw, ManyFacetsHangTogether) {
 
 // Passes over what has no facet yet went on for ever once nothing was left.
 TEST(WideCoverRegression, EndsWhereNeighboursTakeAllSimplices) {
-  const GrownSphere sphere("14000 s D3 t3", 14000);
-  const SimplicialComplex& complex = sphere.work.complex;
-  const SlabGrower grower(complex, *sphere.space, nullptr, true);
-  SlabSeeds seeds(complex, *sphere.space, true);
-  tbb::enumerable_thread_specific<SlabScratch> scratch([&] { return SlabScratch(*sphere.space); });
-  WideCover wide(complex, *sphere.space, grower, seeds, [&]() -> SlabScratch& { return scratch.local(); });
+  WideSphere on("14000 s D3 t3", 14000);
+  const GrownSphere& sphere = on.sphere;
+  const SimplicialComplex& complex = on.complex;
   const double width = 0.0187;
-  const std::optional<Covering> covering = wide.cover(width, CoverEffort{});
+  const std::optional<Covering> covering = on.wide.cover(width, CoverEffort{});
   ASSERT_TRUE(covering.has_value());
   EXPECT_GT(covering->planes.size(), 256U);
   for (std::uint32_t row = 0; row < complex.row_count; ++row) {
