@@ -1,11 +1,10 @@
 #include "approx/hull.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/id_rows.h"
+#include "core/machine/arena.h"
 
 namespace ndhull {
 
@@ -64,7 +63,7 @@ const FacetLists& Hull::lists() const {
       list(numbered_layout());
     }
   };
-  std::call_once(lists_->made, [&] { tbb::this_task_arena::isolate(make); });
+  call_once_isolated(lists_->made, make);
   return lists_->lists;
 }
 
@@ -87,8 +86,7 @@ FacetId Hull::facet_of(SimplexId simplex) const {
 }
 
 const FacetLayout& Hull::numbered_layout() const {
-  std::call_once(lists_->numbered,
-                 [&] { tbb::this_task_arena::isolate([&] { layout_.number_simplices(); }); });
+  call_once_isolated(lists_->numbered, [&] { layout_.number_simplices(); });
   return layout_;
 }
 

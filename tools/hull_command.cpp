@@ -42,7 +42,8 @@ void add_output_options(CLI::App& command, HullArguments& arguments) {
       .add_option(
           "--verify", arguments.verify,
           "check the hull independently before it is written; `--verify exact`: signs in exact arithmetic. "
-          "What takes long is checked by samples; the summary and the report say so. No limit holds for it")
+          "What takes long is checked by samples; the summary and the report say so. No limit on time holds "
+          "for it")
       ->type_name("[exact]")
       ->check(one_of({"floating", "exact"}));
   add_progress_options(command, request.progress, request.quiet);

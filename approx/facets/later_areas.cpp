@@ -1,7 +1,5 @@
 #include "approx/facets/later_areas.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "approx/geometry/gradient_length.h"
 #include "approx/geometry/measure_scale.h"
 #include "core/dimension_switch.h"
+#include "core/machine/arena.h"
 #include "core/machine/blocks.h"
 #include "core/machine/prefetch.h"
 
@@ -39,8 +38,7 @@ LaterAreas::Totals LaterAreas::totals(const FacetLayout& layout) const {
 }
 
 std::span<const double> LaterAreas::of_facets(const FacetLayout& layout, const double* normals) const {
-  // Isolated: a thread that waits inside must not begin other work of the caller's, which may ask again.
-  std::call_once(is_made_, [&] { tbb::this_task_arena::isolate([&] { make(layout, normals); }); });
+  call_once_isolated(is_made_, [&] { make(layout, normals); });
   return {areas_.data(), layout.facets};
 }
 

@@ -1,19 +1,17 @@
 #include "approx/facets/later_simplices.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+
+#include "core/machine/arena.h"
 
 namespace ndhull {
 
 const GroupedComplex& LaterSimplices::made() const {
-  const auto make_all = [this] {
+  call_once_isolated(is_made_, [this] {
     made_ = make();
     own_ids_.resize(made_.complex.row_count);
     for (std::uint32_t row = 0; row < own_ids_.size(); ++row) own_ids_[row] = SimplexId{row};
-  };
-  // Isolated: a thread that waits inside must not begin other work of the caller's, which may ask again.
-  std::call_once(is_made_, [&] { tbb::this_task_arena::isolate(make_all); });
+  });
   return made_;
 }
 

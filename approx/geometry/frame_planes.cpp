@@ -64,6 +64,13 @@ bool cancels(RowMatrix map) {
   return !(SquareFactors(map * map.transpose()).reciprocal_condition() > 1.0 / (kMany * kMany));
 }
 
+double largest_extent(const Frame& frame) {
+  double extent = 0.0;
+  for (std::size_t k = 0; k < frame.dimension; ++k)
+    extent = std::max(extent, frame.column_max[k] - frame.column_min[k]);
+  return extent;
+}
+
 }  // namespace
 
 NormalMap::NormalMap(const Frame& frame)
@@ -143,9 +150,7 @@ double distance_off_subspace(const PointView& points, const Frame& frame) {
   const std::vector<double> equations = find_subspace_equations(frame);
   const std::size_t columns = frame.dimension + 1;
   std::vector<double> point(frame.dimension);
-  double extent = 0.0;
-  for (std::size_t k = 0; k < frame.dimension; ++k)
-    extent = std::max(extent, frame.column_max[k] - frame.column_min[k]);
+  const double extent = largest_extent(frame);
   // In parts of the extent: squares of tiny distances are 0.
   const int exponent = extent > 0.0 ? std::ilogb(extent) : 0;
   double furthest_sq = 0.0;
@@ -165,10 +170,7 @@ double distance_off_subspace(const PointView& points, const Frame& frame) {
 
 bool is_roughly_flat(const PointView& points, const Frame& frame) {
   constexpr double kRough = 1e-13;
-  double extent = 0.0;
-  for (std::size_t k = 0; k < frame.dimension; ++k)
-    extent = std::max(extent, frame.column_max[k] - frame.column_min[k]);
-  return distance_off_subspace(points, frame) > kRough * extent;
+  return distance_off_subspace(points, frame) > kRough * largest_extent(frame);
 }
 
 double sum_error(std::size_t terms, double size) {

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace ndhull {
 
@@ -15,6 +16,13 @@ inline constexpr unsigned kMostThreads = 1024;
 inline tbb::task_arena arena_of(unsigned threads) {
   return tbb::task_arena(threads == 0 ? tbb::task_arena::automatic
                                       : static_cast<int>(std::min(threads, kMostThreads)));
+}
+
+/// What is made when it is first asked for, by whichever thread. Isolated: a thread that waits inside must not
+/// begin other work of the caller's, which may ask again.
+template <class Make>
+void call_once_isolated(std::once_flag& is_made, const Make& make) {
+  std::call_once(is_made, [&] { tbb::this_task_arena::isolate(make); });
 }
 
 }  // namespace ndhull

@@ -149,38 +149,38 @@ std::size_t count_cut_off(const SimplicialComplex& complex, const Covering& cove
   return cut_off;
 }
 
+/// Every simplex is in a facet that holds it. Returns how many there are.
+std::size_t expect_held(const WideSphere& on, const Covering& covering, double width) {
+  std::size_t live = 0;
+  for (std::uint32_t row = 0; row < on.complex.row_count; ++row) {
+    EXPECT_EQ(on.sphere.is_live(row), covering.facet_of[row] != kNone);
+    if (!on.sphere.is_live(row) || covering.facet_of[row] >= covering.planes.size()) continue;
+    ++live;
+    EXPECT_LE(depth_below(on.sphere, covering.planes[covering.facet_of[row]], row), width);
+  }
+  return live;
+}
+
 TEST(WideCoverLaw, ManyFacetsHangTogether) {
   WideSphere on("300 s D7 t3", 300);
-  const GrownSphere& sphere = on.sphere;
-  const SimplicialComplex& complex = on.complex;
   const double width = 0.3;
   const std::optional<Covering> covering = on.wide.cover(width, CoverEffort{});
   ASSERT_TRUE(covering.has_value());
   EXPECT_GT(covering->planes.size(), 256U);
   EXPECT_FALSE(on.wide.has_strays());
-  std::size_t live = 0;
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    EXPECT_EQ(sphere.is_live(row), covering->facet_of[row] != kNone);
-    if (!sphere.is_live(row)) continue;
-    ++live;
-    EXPECT_LE(depth_below(sphere, covering->planes[covering->facet_of[row]], row), width);
-  }
-  EXPECT_LT(50 * count_cut_off(complex, *covering), live);
+  const std::size_t live = expect_held(on, *covering, width);
+  EXPECT_EQ(live, on.seeds.live_count());
+  EXPECT_LT(50 * count_cut_off(on.complex, *covering), live);
 }
 
 // Passes over what has no facet yet went on for ever once nothing was left.
 TEST(WideCoverRegression, EndsWhereNeighboursTakeAllSimplices) {
   WideSphere on("14000 s D3 t3", 14000);
-  const GrownSphere& sphere = on.sphere;
-  const SimplicialComplex& complex = on.complex;
   const double width = 0.0187;
   const std::optional<Covering> covering = on.wide.cover(width, CoverEffort{});
   ASSERT_TRUE(covering.has_value());
   EXPECT_GT(covering->planes.size(), 256U);
-  for (std::uint32_t row = 0; row < complex.row_count; ++row) {
-    if (!sphere.is_live(row)) continue;
-    ASSERT_LT(covering->facet_of[row], covering->planes.size());
-  }
+  EXPECT_EQ(expect_held(on, *covering, width), on.seeds.live_count());
 }
 
 }  // namespace
