@@ -21,4 +21,13 @@ inline Frame prepare_growth(const PointView& points, std::vector<double>& coordi
   return frame;
 }
 
+/// Distances are as if each axis of the frame were so many times as long as the one before.
+inline std::vector<double> unequal_axes(std::size_t rank) {
+  constexpr double kLonger = 1.6;
+  std::vector<double> factor(rank * rank, 0.0);
+  double length = 1.0;
+  for (std::size_t k = 0; k < rank; ++k, length *= kLonger) factor[k * rank + k] = 1.0 / length;
+  return factor;
+}
+
 }  // namespace ndhull

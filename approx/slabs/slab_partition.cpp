@@ -34,7 +34,7 @@ constexpr double kFewSlabs = 100.0;
 /// Below this mean, or where most are smaller than kMostThin, slabs are found from stars (thin_slabs.h); not of
 /// so few simplices, of which walks take no longer. From the last size on they are a seventh more than walks
 /// leave, in a tenth less of the whole time: stars of two neighbours are grown on, which leaves fewer.
-constexpr double kThinSlabs = 16.0, kMostThin = 8.0, kGrownFromTwo = 5.0;
+constexpr double kThinSlabs = 16.0, kMostThin = 9.5, kGrownFromTwo = 5.0;
 constexpr std::size_t kFewSimplices = std::size_t{1} << 14;
 /// Of a seed's neighbours so many have to be open and in its slab before others are taken, and one more where
 /// slabs hold many simplices: looking longer costs little beside them.

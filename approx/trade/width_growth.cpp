@@ -98,6 +98,7 @@ void Approximation::grow_for_width(double outside_width, double slab) {
 void Approximation::choose_order(double outside_width) {
   if (!is_width_without_limits()) return;
   GrowthOptions& options = growth_.work().options;
+  options.in_regions = !growth_.options().limits.has_any();
   for (std::uint64_t rows = kRowsBeforeGauges; rows <= kMostRowsBeforeGauges && !options.by_gauge;
        rows *= 2) {
     if (growth_.grow_to(outside_width, rows, HUGE_VAL) || growth_.is_limited()) return;

@@ -55,10 +55,14 @@ std::vector<bool> find_corners(const SimplicialComplex& complex, std::size_t beg
                                std::size_t point_count, std::size_t most) {
   std::vector<std::uint8_t> is_corner(point_count, 0);
   std::atomic<std::size_t> others = std::min(point_count, most);  // corners that may still be found
-  for_each_block(end - begin, kRowsAtATime, [&](std::size_t first, std::size_t last) {
+  // From both ends by turns: the last vertices may have rows of their own only at the end.
+  const std::size_t blocks = (end - begin + kRowsAtATime - 1) / kRowsAtATime;
+  for_each_block(blocks, 1, [&](std::size_t turn, std::size_t) {
     if (others.load(std::memory_order_relaxed) == 0) return;
+    const std::size_t block = turn % 2 == 0 ? turn / 2 : blocks - 1 - turn / 2;
+    const std::size_t first = begin + block * kRowsAtATime;
     std::size_t found = 0;
-    for (std::size_t row = begin + first; row < begin + last; ++row) {
+    for (std::size_t row = first; row < std::min(end, first + kRowsAtATime); ++row) {
       if (complex.state[row] != SimplexState::kLive) continue;
       for (const PointId id : complex.vertices(SimplexId{static_cast<std::uint32_t>(row)})) {
         const std::atomic_ref flag(is_corner[id.value]);  // of several threads

@@ -212,17 +212,22 @@ class Grower {
   bool cone_is_connected();
   template <bool kInRegion>
   std::uint32_t locate(const double* y, std::uint32_t row, double& gauge);
+  /// By which the next point is chosen.
+  OutsideHeights& order() { return work_.options.by_gauge ? work_.gauges : work_.heights; }
   void put_outside(std::uint32_t id, const NewPlace& place);
   void take_outside(std::uint32_t id);
 
   void list_gauges();
   bool is_to_pause(double furthest) const;
   bool has_made_enough() const;
+  double height_before_pause();
+  std::size_t rows_before_pause() const;
   bool may_grow_in_regions();
   bool grow_in_regions(double furthest);
   void make_regions();
   void list_apexes(double furthest);
-  RegionBorder choose_border(std::uint64_t direction);
+  void wait_for_parting();
+  RegionBorder choose_border(std::uint64_t direction, std::size_t stride);
   bool part_into_regions(double furthest);
   std::size_t most_lent_rows() const { return live_rows() / 8; }  // to each region
   void lend_rows();
@@ -261,7 +266,6 @@ class Grower {
   std::vector<std::vector<std::uint32_t>> emptied_;  // freed simplices that had points outside, a list a part
   std::vector<std::uint32_t> moved_;                 // points whose simplices are gone
   std::vector<NewPlace> new_places_;
-  OutsideHeights gauges_;  // by_gauge: of the points in outside sets
   std::size_t visible_count_ = 0, horizon_count_ = 0, new_count_ = 0;
   bool is_cut_ = false;                       // the last search ended at the region's border
   double lowest_visible_ = 0.0;               // smallest gauge tested above the threshold
@@ -275,7 +279,6 @@ class Grower {
   std::vector<std::uint32_t> high_;
   std::vector<RegionApex> apexes_;      // points that may be added by regions
   std::vector<double> duals_, values_;  // of their simplices
-  RegionCounters parting_;
 };
 
 // Between one and two of the shift. Mostly rising from point to point: a point on the plane of simplices made
@@ -351,7 +354,7 @@ bool Grower<D>::has_made_enough() const {
 template <std::size_t D>
 GrowthStop Grower<D>::run() {
   std::uint64_t polled_at = 0;
-  if (work_.options.by_gauge) list_gauges();
+  list_gauges();
   for (;;) {
     const OutsideHeights::Furthest furthest = work_.heights.furthest();
     if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;
@@ -368,17 +371,17 @@ GrowthStop Grower<D>::run() {
       if (stop != GrowthStop::kNoOutsidePoints) return stop;
       polled_at = books_.counters.made() + 4096;
     }
-    if (may_grow_in_regions() && grow_in_regions(furthest.height)) continue;
-    const std::uint32_t row = work_.options.by_gauge ? gauges_.furthest().row : furthest.row;
-    const std::uint32_t apex_id = head_[row] - 1;
-    switch (insert_timed(apex_id, row)) {
+    const OutsideHeights::Furthest next = work_.options.by_gauge ? work_.gauges.furthest() : furthest;
+    if (may_grow_in_regions() && grow_in_regions(next.height)) continue;
+    const std::uint32_t apex_id = head_[next.row] - 1;
+    switch (insert_timed(apex_id, next.row)) {
       case Outcome::kAdded: break;
       case Outcome::kNoRoom: return GrowthStop::kMemoryLimit;
       case Outcome::kPastLimit: return GrowthStop::kFacetLimit;
       case Outcome::kRejected:  // certify will measure what it costs
         ++books_.counters.set_aside;
         take_from_outside(work_, apex_id);
-        if (work_.options.by_gauge) gauges_.remove(apex_id);
+        if (work_.options.by_gauge) work_.gauges.remove(apex_id);
         break;
     }
   }

@@ -43,6 +43,7 @@ void clear_work(GrowthWork& work) {
   work.waiting.clear();
   work.shifted_points.clear();
   work.counters = GrowthCounters();
+  work.parting = PartingRecord();
 }
 
 /// Where a point is over the first simplex.

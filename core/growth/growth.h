@@ -46,11 +46,12 @@ struct GrowthOptions {
   /// shifted; 0: never.
   std::uint64_t pause_made = 0;
   /// Points far apart may be added side by side where insertions have become small: the furthest of all is
-  /// then not always next. Only without limits: an early end should have the furthest points.
+  /// then not always next. Only without limits: an early end should have the furthest points. May be changed
+  /// between calls of `grow`.
   bool in_regions = false;
   /// The point whose gauge is largest comes next, however far it is: that makes fewer simplices on the way,
-  /// of elongated hulls most. Only where no limit is near and no point is about to be left out, and not with
-  /// in_regions. May be changed between calls of `grow`.
+  /// of elongated hulls most. Only where no limit is near and no point is about to be left out. May be
+  /// changed between calls of `grow`.
   bool by_gauge = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
@@ -73,6 +74,25 @@ struct GrowthCounters {
   void add(const GrowthCounters& other, double share);
 };
 
+/// Regions in which growth may go on at the same time.
+inline constexpr std::size_t kRegions = 2;
+
+/// How parting the hull into regions has gone so far. Growth that goes on begins where it was.
+struct PartingRecord {
+  static constexpr double kWidestBand = 0.4;
+  static constexpr std::uint64_t kLeastAlone = 8;
+
+  std::uint64_t partings = 0;
+  std::uint64_t next_at = 0;          ///< insertions
+  std::uint64_t alone = kLeastAlone;  ///< insertions before the next try, when one is not worth it
+  std::uint64_t created_at = 0;       ///< simplices made before the insertions that are looked at
+  std::uint64_t looked_at = 0;        ///< insertions before these
+  double ridges = 0.0;                ///< of an insertion
+  bool pays = false;                  ///< insertions are small beside the hull
+  double band = kWidestBand;  ///< points whose heights are within this part of the furthest's are tried
+  double clearances[kRegions] = {2.0, 2.0};  ///< of the regions, when they were joined
+};
+
 /// Everything that growth works on. Plain tables: the phases are free functions.
 struct GrowthWork {
   std::size_t rank = 0;
@@ -85,6 +105,7 @@ struct GrowthWork {
 
   std::vector<std::uint32_t> next_outside;    ///< per point: next of the same outside set + 1, 0 at the end
   OutsideHeights heights;                     ///< above the simplices in whose outside sets points are
+  OutsideHeights gauges;                      ///< the same as gauges; only while growth goes by them
   std::uint64_t points_outside = 0;           ///< in outside sets
   std::vector<std::uint32_t> waiting;         ///< ascending; neither in an outside set nor known to be inside
   double waiting_height = 0.0;                ///< no waiting point is further above the hull; may be +inf
@@ -92,6 +113,7 @@ struct GrowthWork {
 
   GrowthOptions options;
   GrowthCounters counters;
+  PartingRecord parting;
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
 
   /// What growth that has paused goes on with: its threads, lists and marks, and what it has learned of the

@@ -46,7 +46,6 @@ HWY_AFTER_NAMESPACE();
 namespace ndhull {
 
 GrowthStop grow(GrowthWork& work) {
-  NDHULL_CHECK(!(work.options.by_gauge && work.options.in_regions));
   const GrowthStop stop = NDHULL_BEST_OF(run_growth)(work);
   if (stop == GrowthStop::kNoOutsidePoints) forget_outside(work);
   return stop;

@@ -35,8 +35,9 @@ struct HaltedPoint {
 /// The simplices whose dual vertices are within a border.
 struct GrowthRegion {
   RegionBorder border;
-  double clearance = 2.0;     ///< points nearer to the border than so many times their reach are not tried
-  double least_height = 0.0;  ///< lower points are not tried
+  double clearance = 0.0;     ///< points nearer to the border than so many times their reach are not tried
+  double least_height = 0.0;  ///< lower points are not tried; as growth orders points, by heights or gauges
+  double height_before_pause = 0.0;  ///< nor are points whose height is no more than this
   std::uint64_t most_created = 0;
 
   std::vector<RegionApex> apexes;  ///< the furthest first
@@ -47,17 +48,6 @@ struct GrowthRegion {
   GrowthCounters counters;
   std::vector<std::uint32_t> written;  ///< points whose heights have changed
   std::vector<HaltedPoint> halted;
-};
-
-/// How parting the hull into regions has gone so far.
-struct RegionCounters {
-  std::uint64_t partings = 0;
-  std::uint64_t next_at = 0;     ///< insertions
-  std::uint64_t created_at = 0;  ///< simplices made before the insertions that are looked at
-  std::uint64_t looked_at = 0;   ///< insertions before these
-  double ridges = 0.0;           ///< of an insertion
-  bool pays = false;             ///< insertions are small beside the hull
-  double band = 0.4;             ///< points whose heights are within this part of the furthest's are tried
 };
 
 }  // namespace ndhull

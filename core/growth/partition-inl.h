@@ -94,12 +94,14 @@ void Grower<D>::partition(std::uint32_t apex) {
 
 template <std::size_t D>
 void Grower<D>::list_gauges() {
+  work_.gauges = OutsideHeights();
+  if (!work_.options.by_gauge) return;
   std::vector<std::uint32_t> outside;
   work_.heights.list_above(0.0, outside);
-  gauges_.reset(work_.point_count);
+  work_.gauges.reset(work_.point_count);
   for (const std::uint32_t id : outside) {
     const std::uint32_t row = work_.heights.row(id);
-    gauges_.put(id, row, gauge_above<D>(plane(row), point(id)));
+    work_.gauges.put(id, row, gauge_above<D>(plane(row), point(id)));
   }
 }
 

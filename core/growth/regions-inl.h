@@ -25,7 +25,8 @@ HWY_BEFORE_NAMESPACE();
 namespace ndhull {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kRegions = 2;
+/// Insertions that are worth parting for, and that each region may make however few points it has.
+constexpr double kFewInserted = 16.0;
 
 /// On which side of the border between regions a dual vertex is.
 HWY_INLINE double region_value(const RegionBorder& border, const double* record) {
@@ -42,9 +43,13 @@ HWY_INLINE bool Grower<D>::is_in_region(const double* record) const {
 
 template <std::size_t D>
 void Grower<D>::put_outside(std::uint32_t id, const NewPlace& place) {
-  if (work_.options.by_gauge) gauges_.put(id, place.row, place.gauge);
-  if (region_ == nullptr) return push_outside(work_, id, place.row, place.height);
+  const bool by_gauge = work_.options.by_gauge;
+  if (region_ == nullptr) {
+    if (by_gauge) work_.gauges.put(id, place.row, place.gauge);
+    return push_outside(work_, id, place.row, place.height);
+  }
   work_.heights.put_apart(id, place.row, place.height);
+  if (by_gauge) work_.gauges.put_apart(id, place.row, place.gauge);
   link_outside(work_, id, place.row, place.height);
   region_->written.push_back(id);
   ++region_->points_outside;
@@ -52,10 +57,30 @@ void Grower<D>::put_outside(std::uint32_t id, const NewPlace& place) {
 
 template <std::size_t D>
 void Grower<D>::take_outside(std::uint32_t id) {
-  if (work_.options.by_gauge) gauges_.remove(id);
-  if (region_ == nullptr) return work_.heights.remove(id);
+  const bool by_gauge = work_.options.by_gauge;
+  if (region_ == nullptr) {
+    if (by_gauge) work_.gauges.remove(id);
+    return work_.heights.remove(id);
+  }
   work_.heights.put_apart(id, 0, OutsideHeights::kNotOutside);
+  if (by_gauge) work_.gauges.put_apart(id, 0, OutsideHeights::kNotOutside);
   region_->written.push_back(id);
+}
+
+/// No lower point may be added if growth is to pause when none is higher.
+template <std::size_t D>
+double Grower<D>::height_before_pause() {
+  const GrowthOptions& options = work_.options;
+  const bool is_height_missing =
+      options.pause_rows != 0 && work_.heights.furthest().height > options.pause_height;
+  return is_height_missing ? options.pause_height : 0.0;
+}
+
+/// Simplices that regions may make, not to have many more than those growth is to pause at.
+template <std::size_t D>
+std::size_t Grower<D>::rows_before_pause() const {
+  if (work_.options.pause_rows <= live_rows()) return SIZE_MAX;
+  return work_.options.pause_rows - live_rows();
 }
 
 /// Is the hull large beside its insertions, and general?
@@ -63,26 +88,30 @@ template <std::size_t D>
 bool Grower<D>::may_grow_in_regions() {
   constexpr std::size_t kLeastRows = 8192, kLeastRidges = 40, kLookedAt = 64;
   const std::uint64_t insertions = books_.counters.insertions;
-  if (!work_.options.in_regions || insertions < parting_.next_at || live_rows() < kLeastRows) return false;
+  if (!work_.options.in_regions || insertions < work_.parting.next_at || live_rows() < kLeastRows)
+    return false;
   if (!work_.shifted_points.empty()) return false;
-  const std::uint64_t created = books_.counters.created - parting_.created_at;
-  const std::uint64_t looked_at = insertions - parting_.looked_at;
+  // With distances, an insertion among so many points is mostly placing them, which all threads do together.
+  const bool has_distances = !work_.options.gradient_factor.empty();
+  if (has_distances && books_.points_outside > live_rows()) return false;
+  const std::uint64_t created = books_.counters.created - work_.parting.created_at;
+  const std::uint64_t looked_at = insertions - work_.parting.looked_at;
   if (looked_at >= kLookedAt) {
-    parting_.looked_at = insertions;
-    parting_.created_at = books_.counters.created;
-    parting_.ridges = static_cast<double>(created) / static_cast<double>(looked_at);
-    parting_.pays = created * kLeastRidges <= live_rows() * looked_at;
+    work_.parting.looked_at = insertions;
+    work_.parting.created_at = books_.counters.created;
+    work_.parting.ridges = static_cast<double>(created) / static_cast<double>(looked_at);
+    work_.parting.pays = created * kLeastRidges <= live_rows() * looked_at;
   }
-  return parting_.pays;
+  return work_.parting.pays && static_cast<double>(rows_before_pause()) > kFewInserted * work_.parting.ridges;
 }
 
 template <std::size_t D>
 bool Grower<D>::grow_in_regions(double furthest) {
-  constexpr std::uint64_t kFewInsertions = 8, kAlone = 8;
+  constexpr std::uint64_t kFewInsertions = 8;
   make_place_for(std::min(books_.row_count + kRegions * most_lent_rows(), row_end()));
   if (in_regions_.empty()) make_regions();
   if (!part_into_regions(furthest)) {
-    parting_.next_at = books_.counters.insertions + kAlone;
+    wait_for_parting();
     return false;
   }
   lend_rows();
@@ -97,9 +126,22 @@ bool Grower<D>::grow_in_regions(double furthest) {
   clock.lap(seconds);
   const std::uint64_t before = books_.counters.insertions;
   join_regions(seconds);
-  if (books_.counters.insertions < before + kFewInsertions)
-    parting_.next_at = books_.counters.insertions + kAlone;
+  if (books_.counters.insertions < before + kFewInsertions) {
+    wait_for_parting();
+  } else {
+    work_.parting.alone = PartingRecord::kLeastAlone;
+  }
   return true;
+}
+
+/// Points are added one by one for a while, which is longer each time: to look for a border costs about as much
+/// as to add one.
+template <std::size_t D>
+void Grower<D>::wait_for_parting() {
+  constexpr std::uint64_t kMostAlone = 256;
+  PartingRecord& parting = work_.parting;
+  parting.next_at = books_.counters.insertions + parting.alone;
+  parting.alone = std::min(2 * parting.alone, kMostAlone);
 }
 
 template <std::size_t D>
@@ -118,37 +160,41 @@ template <std::size_t D>
 void Grower<D>::list_apexes(double furthest) {
   constexpr std::size_t kMany = 512, kPartOfPoints = 16;
   high_.clear();
-  const double least = (1.0 - parting_.band) * furthest;
-  work_.heights.list_above(least, high_);
-  for (GrowthRegion& region : regions_) region.least_height = least;
+  const double least = (1.0 - work_.parting.band) * furthest;
+  order().list_above(least, high_);
+  const double before_pause = height_before_pause();
+  for (GrowthRegion& region : regions_) {
+    region.least_height = least;
+    region.height_before_pause = before_pause;
+  }
   apexes_.clear();
   duals_.clear();
   for (const std::uint32_t id : high_) {
     const std::uint32_t row = work_.heights.row(id);
-    if (head_[row] != id + 1) continue;
+    if (head_[row] != id + 1 || work_.heights.height(id) <= before_pause) continue;
     const double* record = plane(row);
-    const double height = work_.heights.height(id);
     const double length_sq = std::inner_product(record, record + D, record, 0.0);
-    apexes_.push_back({id, height, std::sqrt(length_sq * height), 0.0});
+    const double gauge = std::max(0.0, gauge_above<D>(record, point(id)));
+    apexes_.push_back({id, order().height(id), std::sqrt(length_sq * gauge), 0.0});
     duals_.insert(duals_.end(), record, record + D);
   }
   const std::size_t wanted = std::max<std::size_t>(kMany, books_.points_outside / kPartOfPoints);
   if (apexes_.size() < wanted / 2) {
-    parting_.band = std::min(RegionCounters().band, parting_.band * 1.25);
+    work_.parting.band = std::min(PartingRecord::kWidestBand, work_.parting.band * 1.25);
   } else if (apexes_.size() > 2 * wanted) {
-    parting_.band *= 0.8;
+    work_.parting.band *= 0.8;
   }
 }
 
-/// A plane of this direction between the points that may be added.
+/// A plane of this direction between the points that may be added, in the middle of every stride-th of them.
 template <std::size_t D>
-RegionBorder Grower<D>::choose_border(std::uint64_t direction) {
+RegionBorder Grower<D>::choose_border(std::uint64_t direction, std::size_t stride) {
   RegionBorder border;
   border.axes[0] = direction % D;
   border.axes[1] = (border.axes[0] + 1 + (direction >> 8) % (D - 1)) % D;
   border.weights[1] = (direction >> 16) % 3 == 0 ? 0.0 : (direction >> 24) % 2 == 0 ? 1.0 : -1.0;
   values_.clear();
-  for (std::size_t i = 0; i < apexes_.size(); ++i) {
+  for (std::size_t i = 0; i < apexes_.size(); i += stride) {
     apexes_[i].value = region_value(border, duals_.data() + i * D);
     values_.push_back(apexes_[i].value);
   }
@@ -161,39 +207,44 @@ RegionBorder Grower<D>::choose_border(std::uint64_t direction) {
 /// Chooses a plane between the furthest points and lists those of each side; false: they are too few.
 template <std::size_t D>
 bool Grower<D>::part_into_regions(double furthest) {
-  constexpr std::size_t kFew = 8, kTrials = 4;
+  constexpr std::size_t kFew = 32, kTrials = 4, kSample = 128;
   list_apexes(furthest);
   if (apexes_.size() < kFew) return false;
+  const std::size_t stride = 1 + apexes_.size() / kSample;
   const auto side_of = [&](const RegionApex& apex, double least) -> GrowthRegion* {
     GrowthRegion& region = regions_[apex.value > least ? 0 : 1];
-    return std::abs(apex.value - least) > region.clearance * apex.reach ? &region : nullptr;
+    const double clearance = work_.parting.clearances[&region - regions_.data()];
+    return std::abs(apex.value - least) > clearance * apex.reach ? &region : nullptr;
   };
   std::uint64_t best = 0;
   std::size_t most = 0;
   for (std::size_t trial = 0; trial < kTrials; ++trial) {
-    const std::uint64_t direction = scramble(work_.options.seed ^ scramble(++parting_.partings));
-    const double least = choose_border(direction).least;
+    const std::uint64_t direction = scramble(work_.options.seed ^ scramble(++work_.parting.partings));
+    const double least = choose_border(direction, stride).least;
     std::size_t counts[kRegions] = {0, 0};
-    for (const RegionApex& apex : apexes_)
-      if (const GrowthRegion* region = side_of(apex, least)) ++counts[region - regions_.data()];
+    for (std::size_t i = 0; i < apexes_.size(); i += stride)
+      if (const GrowthRegion* region = side_of(apexes_[i], least)) ++counts[region - regions_.data()];
     const std::size_t count = std::min(counts[0], counts[1]);
     if (count <= most) continue;
     most = count;
     best = direction;
   }
-  if (most < kFew / 2) return false;
-  const RegionBorder border = choose_border(best);
+  if (most * stride < kFew / 2) return false;
+  const RegionBorder border = choose_border(best, 1);
   regions_[0].border = border;
   regions_[1].border = border.reversed();
   for (GrowthRegion& region : regions_) region.apexes.clear();
   for (RegionApex& apex : apexes_)
     if (GrowthRegion* region = side_of(apex, border.least))
       region->apexes.push_back({apex.point, apex.height, apex.reach, apex.value - border.least});
+  most = std::min(regions_[0].apexes.size(), regions_[1].apexes.size());
+  if (most < kFew / 2) return false;
   for (GrowthRegion& region : regions_) {
     std::sort(region.apexes.begin(), region.apexes.end(), [](const RegionApex& a, const RegionApex& b) {
       return a.height != b.height ? a.height > b.height : a.point < b.point;
     });
     region.apexes.resize(most);
+    region.clearance = work_.parting.clearances[&region - regions_.data()];
   }
   return true;
 }
@@ -203,8 +254,9 @@ template <std::size_t D>
 void Grower<D>::lend_rows() {
   constexpr double kPartAdded = 0.5;
   const double listed = static_cast<double>(regions_[0].apexes.size());
-  const auto most = static_cast<std::size_t>(
-      std::min(parting_.ridges * std::max(16.0, kPartAdded * listed), static_cast<double>(most_lent_rows())));
+  const auto wanted =
+      static_cast<std::size_t>(work_.parting.ridges * std::max(kFewInserted, kPartAdded * listed));
+  const std::size_t most = std::min({wanted, most_lent_rows(), rows_before_pause() / kRegions});
   const std::size_t half = books_.free_count / kRegions;
   const std::size_t unused = std::min(most - std::min(most, half), (row_end() - books_.row_count) / kRegions);
   const std::uint32_t* from = books_.free_rows.data();
@@ -247,6 +299,9 @@ void Grower<D>::join_regions(double seconds) {
     books_.counters.add(region.counters, share);
     books_.points_outside += region.points_outside;
     for (const std::uint32_t id : region.written) work_.heights.settle(id);
+    if (work_.options.by_gauge)
+      for (const std::uint32_t id : region.written) work_.gauges.settle(id);
+    work_.parting.clearances[&region - regions_.data()] = region.clearance;
   }
   books_.row_count = row;
   for (const GrowthRegion& region : regions_)
@@ -257,7 +312,7 @@ void Grower<D>::join_regions(double seconds) {
       const std::uint32_t found = locate<false>(point(halted.point), halted.row, gauge);
       if (gauge <= 2.0 * work_.options.shift) continue;
       const double height = height_above(work_, found, gauge);
-      if (height > least_height(work_)) push_outside(work_, halted.point, found, height);
+      if (height > least_height(work_)) put_outside(halted.point, {found, height, gauge});
     }
   }
 }
@@ -272,7 +327,8 @@ void Grower<D>::grow_region() {
     if (std::abs(apex.value) < region_->clearance * apex.reach) continue;
     if (work_.heights.height(apex.point) == OutsideHeights::kNotOutside) continue;
     const std::uint32_t row = work_.heights.row(apex.point), head = head_[row] - 1;
-    if (work_.heights.height(head) <= region_->least_height) continue;
+    if (order().height(head) <= region_->least_height) continue;
+    if (work_.heights.height(head) <= region_->height_before_pause) continue;
     if (insert_in_region(head, row)) {
       region_->clearance = std::max(0.0, region_->clearance - kOnAfterSuccess);
     } else {

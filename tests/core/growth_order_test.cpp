@@ -14,15 +14,6 @@
 namespace ndhull {
 namespace {
 
-/// Distances are as if each axis of the frame were so many times as long as the one before.
-std::vector<double> unequal_axes(std::size_t rank) {
-  constexpr double kLonger = 1.6;
-  std::vector<double> factor(rank * rank, 0.0);
-  double length = 1.0;
-  for (std::size_t k = 0; k < rank; ++k, length *= kLonger) factor[k * rank + k] = 1.0 / length;
-  return factor;
-}
-
 struct Ordered {
   /// `by_gauge_from`: simplices from which on gauges count; 0: always, UINT64_MAX: never.
   Ordered(const PointSet& set, bool has_distances, std::uint64_t by_gauge_from) {

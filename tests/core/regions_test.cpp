@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "core/complex/complex_check.h"
@@ -17,8 +18,11 @@ namespace ndhull {
 namespace {
 
 struct Grown {
-  explicit Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0) {
+  Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0,
+        const GrowthOptions& options = {}) {
     const Frame frame = prepare_growth(set.view(), coordinates, work);
+    work.options = options;
+    if (options.by_gauge) work.options.gradient_factor = unequal_axes(work.rank);
     work.options.in_regions = in_regions;
     work.options.pause_rows = pause_rows;
     tbb::task_arena arena(threads);
@@ -82,6 +86,22 @@ INSTANTIATE_TEST_SUITE_P(Sets, GrowthInRegions,
                          testing::Values(Case{"20000 s D3 t1", 6000}, Case{"6000 s D4 t2", 2000},
                                          Case{"4000 s D5 t3", 2000}, Case{"2500 s D6 t4", 600}));
 
+/// As `Grown` is told to grow.
+GrowthOptions by_gauge() {
+  GrowthOptions options;
+  options.by_gauge = true;
+  return options;
+}
+
+TEST_P(GrowthInRegions, MayGoByGauges) {
+  const PointSet set = rbox(GetParam().words);
+  const Grown alone(set, false, 1, 0, by_gauge()), parted(set, true, 2, 0, by_gauge());
+  EXPECT_GE(parted.work.counters.in_regions, GetParam().insertions);
+  EXPECT_EQ(simplices_of(parted.work.complex), simplices_of(alone.work.complex));
+  // In that order: by distances, which are very unequal, more would be made.
+  EXPECT_LE(parted.work.counters.created, alone.work.counters.created / 20 * 21);
+}
+
 TEST(GrowthInRegionsOfOtherData, IsAHullWhereItPauses) {
   const Grown parted(rbox("4000 s D5 t5"), true, 2, 9000);
   EXPECT_GT(parted.pauses, 0);
@@ -89,6 +109,32 @@ TEST(GrowthInRegionsOfOtherData, IsAHullWhereItPauses) {
   EXPECT_TRUE(check_complex(parted.work.complex).sound());
   EXPECT_EQ(simplices_of(parted.work.complex),
             simplices_of(Grown(rbox("4000 s D5 t5"), false, 1).work.complex));
+}
+
+// Points that are lower than growth has to come down to are left for later, as by growth by one.
+TEST(GrowthInRegionsOfOtherData, AddsNoMoreThanAHeightNeeds) {
+  constexpr double kHeight = 0.06;  // of gauges
+  const auto grown_to_height = [&](bool in_regions, GrowthOptions options) {
+    options.pause_height = kHeight;
+    const PointSet set = rbox("20000 s D5 t7");
+    auto grown = std::make_unique<GrowthWork>();
+    std::vector<double> coordinates;
+    const Frame frame = prepare_growth(set.view(), coordinates, *grown);
+    grown->options = options;
+    grown->options.gradient_factor = std::vector<double>(grown->rank * grown->rank, 0.0);
+    for (std::size_t k = 0; k < grown->rank; ++k) grown->options.gradient_factor[k * (grown->rank + 1)] = 1.0;
+    grown->options.in_regions = in_regions;
+    grown->options.pause_rows = 1;
+    start_growth(*grown, frame.simplex, FirstPoints());
+    EXPECT_EQ(grow(*grown), GrowthStop::kPaused);
+    EXPECT_LE(grown->heights.furthest().height, kHeight);
+    return grown->counters;
+  };
+  for (const GrowthOptions& options : {GrowthOptions(), by_gauge()}) {
+    const GrowthCounters alone = grown_to_height(false, options), parted = grown_to_height(true, options);
+    EXPECT_GT(parted.in_regions, alone.insertions / 4);
+    EXPECT_LE(parted.insertions, alone.insertions + alone.insertions / 20);
+  }
 }
 
 /// Points of a sphere that is cut off across the first axis, and a dozen where that cuts it: one facet.
