@@ -11,7 +11,7 @@
 #include "approx/geometry/frame_planes.h"
 #include "approx/hull_run.h"
 #include "approx/selection/volume_cover.h"
-#include "approx/trade/approximation.h"
+#include "approx/trade/approximate_facets.h"
 #include "approx/trade/described_join.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -125,15 +125,14 @@ bool HullBuilder::approximate(const std::vector<double>& factor) {
   const ResolvedAccuracy lengths = resolve(options_.accuracy, frame_, hull_.length_unit_);
   check_depths(options_.accuracy, lengths);
   check_squares(lengths.largest_extent);
-  Approximation approximation(frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_,
-                              earlier_);
-  clusters_ = approximation.run();
-  wants_exact_first_ = approximation.wants_exact_first();
-  star_hull_ = std::move(approximation.star_hull());
-  determinants_ = approximation.take_determinants();
+  ApproximateFacets found = approximate_facets(
+      {frame_, options_.accuracy, lengths, factor, *growth_, hull_, input_bytes_, earlier_});
+  clusters_ = std::move(found.clusters);
+  wants_exact_first_ = found.wants_exact_first;
+  star_hull_ = std::move(found.star_hull);
+  determinants_ = std::move(found.determinants);
   seconds(Phase::kMerge) += seconds_since(begin) - seconds(Phase::kGrowth) - seconds(Phase::kCertify);
-  return hull_.status != HullStatus::kMemoryLimit || earlier_.has_run_out ||
-         !approximation.may_do_without_complex();
+  return hull_.status != HullStatus::kMemoryLimit || earlier_.has_run_out || !found.may_do_without_complex;
 }
 
 void HullBuilder::merge() {

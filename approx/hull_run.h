@@ -17,7 +17,7 @@
 #include "approx/growth/certified_growth.h"
 #include "approx/hull.h"
 #include "approx/slabs/star_hull.h"
-#include "approx/trade/approximation.h"
+#include "approx/trade/approximate_facets.h"
 #include "core/frame.h"
 #include "core/machine/huge_array.h"
 #include "core/machine/stopwatch.h"

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "approx/slabs/slab_cover.h"
+
 namespace ndhull {
 
 /// Simplices that are worth growing for so many facets where points left out are nearly as far outside as a
@@ -20,5 +22,11 @@ constexpr std::uint64_t most_where_far(std::uint64_t facets) {
 constexpr std::uint64_t most_covered(std::uint64_t facets) { return 8 * most_worth_growing(facets); }
 /// Disjoint slabs take this part of the time of overlapping ones, at most.
 inline constexpr std::uint64_t kDisjointQuicker = 2;
+/// Simplices that steps of the width about the narrowest found may meet, again for each. Where facets hold
+/// hundreds of simplices they find hardly anything.
+inline constexpr std::uint64_t kMostProbed = 90'000;
+/// Coverings of the search, and what takes off the last tenth.
+inline constexpr CoverEffort kPlainCover{.final_fit_steps = 0};
+inline constexpr CoverEffort kHarderCover{.choices = 2, .refits = 2};
 
 }  // namespace ndhull

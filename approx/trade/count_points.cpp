@@ -1,8 +1,8 @@
-// Points left out that keep the facets of a target number wide: the part of approx/trade/approximation.h that
-// takes them in when facets have been balanced.
+// Points left out that keep the facets of a target number wide: the part of
+// approx/trade/count_approximation.h that takes them in when facets have been balanced.
 //
-// Idea. Where growth has left points out, one may be so far above some simplices that they are too wide alone:
-// neither other slabs nor more facets help. When such a facet is the widest, its points are taken in. A few
+// Idea. Where growth has left points out, one may be so far above some simplices that they are too wide
+// alone: neither other slabs nor more facets help. When such a facet is the widest, its points are taken in. A few
 // insertions replace some simplices, the others keep their facets, and balance goes on from there. Where the
 // widest facet is large that would not help: more vertices make it wider.
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-#include "approx/trade/approximation.h"
+#include "approx/trade/count_approximation.h"
 #include "approx/trade/facet_carry.h"
 
 namespace ndhull {
@@ -29,8 +29,8 @@ constexpr std::uint64_t kMostToTakeIn = 2'000'000, kTurnsOfRound = 10;
 }  // namespace
 
 /// The simplices of the widest facets, if they are few and the widest of all is one of them.
-std::vector<std::uint32_t> Approximation::simplices_of_widest(const Covering& covering,
-                                                              const TrueWidths& widths) const {
+std::vector<std::uint32_t> CountApproximation::simplices_of_widest(const TrueWidths& widths) const {
+  const Covering& covering = search_.narrowest;
   const FacetMembers members_of(covering);
   const double widest = widths.widest();
   std::vector<std::uint32_t> simplices;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> Approximation::simplices_of_widest(const Covering& co
 }
 
 /// The points left out that are far above these simplices' own planes.
-std::vector<PointId> Approximation::points_far_above(std::span<const std::uint32_t> simplices, double width) {
+std::vector<PointId> CountApproximation::points_far_above(std::span<const std::uint32_t> simplices) {
   const SimplicialComplex& complex = growth_.work().complex;
   const std::vector<FurthestPoint> furthest = furthest_above(simplices);
   std::vector<PointId> points;
@@ -57,7 +57,7 @@ std::vector<PointId> Approximation::points_far_above(std::span<const std::uint32
     const SimplexId simplex{simplices[i]};
     space_->normal_of(complex.plane(simplex), normal.data());
     const double* z = space_->row(space_->row_of(complex.vertices(simplex)[0]));
-    if (std::inner_product(normal.begin(), normal.end(), z, kFarAboveAlone * width) < furthest[i].dot)
+    if (std::inner_product(normal.begin(), normal.end(), z, kFarAboveAlone * search_.width) < furthest[i].dot)
       points.push_back(growth_.left_out()[furthest[i].row].point);
   }
   std::sort(points.begin(), points.end());
@@ -67,40 +67,37 @@ std::vector<PointId> Approximation::points_far_above(std::span<const std::uint32
 
 /// What was taken in has made facets wider: the hull as it is now is covered anew by slabs of the width that
 /// there was.
-void Approximation::cover_again(std::uint64_t count, double width, double outside_width,
-                                CountSearch& search) {
-  const double before = search.has_any() ? search.width : HUGE_VAL;
-  search_held(count, width, outside_width, false, search);
-  if (search.has_any() && search.width < before)
-    balance_facets(count, Covering(search.narrowest), search.slab, kTurnsOfRound, search);
-  if (!search.has_any())
-    consider(cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates()), 0.0,
-             search);
+void CountApproximation::cover_again(double width) {
+  const double before = search_.has_any() ? search_.width : HUGE_VAL;
+  search_held(width, false);
+  if (search_.has_any() && search_.width < before)
+    balance_facets(Covering(search_.narrowest), search_.slab, kTurnsOfRound);
+  if (!search_.has_any())
+    consider(cover_by_first_simplex(growth_.work().complex, *space_, frame_, growth_.coordinates()), 0.0);
 }
 
 /// Takes in what keeps the widest facets wide, round by round, as long as facets become narrower by it. The
 /// narrowest covering so far is carried from hull to hull.
-void Approximation::take_in_widening(std::uint64_t count, double outside_width, CountSearch& search) {
+void CountApproximation::take_in_widening() {
   for (int round = 0; round < kMostTakenIn && !growth_.is_limited() && !growth_.is_late(); ++round) {
-    if (live_count() > std::min(kMostToTakeIn, affordable_rows_) || search.width <= flat()) return;
-    const std::vector<std::uint32_t> simplices =
-        simplices_of_widest(search.narrowest, true_widths(search.narrowest));
-    const std::vector<PointId> points = points_far_above(simplices, search.width);
+    if (live_count() > std::min(kMostToTakeIn, affordable_rows_) || search_.width <= flat()) return;
+    const std::vector<std::uint32_t> simplices = simplices_of_widest(true_widths(search_.narrowest));
+    const std::vector<PointId> points = points_far_above(simplices);
     if (points.empty()) return;
     const SimplexNames before(growth_.work().complex);
     take_in_alone(points);
-    locate_left_out(outside_width);
+    locate_left_out(outside_width_);
     make_space(true);
-    const double width = search.width, slab = search.slab;
-    Covering carried = carry_facets(growth_.work().complex, *space_, before, search.narrowest, width);
-    search.narrowest = Covering{};
+    const double width = search_.width, slab = search_.slab;
+    Covering carried = carry_facets(growth_.work().complex, *space_, before, search_.narrowest, width);
+    search_.narrowest = Covering{};
     if (!keeps_hull(carried)) close_and_join(carried, width, false);
-    if (carried.planes.size() <= count && keeps_hull(carried)) {
-      consider(carried, slab, search);
-      balance_facets(count, carried, slab, kTurnsOfRound, search);
+    if (carried.planes.size() <= count_ && keeps_hull(carried)) {
+      consider(carried, slab);
+      balance_facets(carried, slab, kTurnsOfRound);
     }
-    if (!search.has_any() || search.width > width) return cover_again(count, width, outside_width, search);
-    if (search.width > kWorthAnother * width) return;
+    if (!search_.has_any() || search_.width > width) return cover_again(width);
+    if (search_.width > kWorthAnother * width) return;
   }
 }
 

@@ -1,4 +1,4 @@
-// More time for fewer facets, or narrower ones: the part of approx/trade/approximation.h that looks further.
+// More time for fewer facets: the part of approx/trade/approximation.h that looks further.
 //
 // Idea. What slabs and joins leave are facets that could not take a whole neighbour any more. So pairs join
 // into facets somewhat wider than may be, the narrowest first, and then simplices change facets and planes
@@ -28,16 +28,8 @@ constexpr int kQuietTurns = 4, kMostSplits = 12;
 constexpr double kHardlyFewer = 0.995;
 /// Turns in single precision make a facet wider by less than this part.
 constexpr double kTurnError = 1e-6;
-constexpr int kMostRoundsOfPoints = 6;
 /// What joining takes: for a facet, for each dimension of it, and for a row.
 constexpr std::size_t kFacetBytes = 700, kFacetBytesOfRank = 80, kRowBytes = 24;
-/// Widths that are looked into for a number of facets; how much narrower one has to be at least, and up to
-/// which part of the number it is not enough.
-constexpr int kMostWidths = 8, kMostInVain = 2;
-constexpr double kLeastNarrower = 0.004, kNearlyAll = 0.995;
-/// Logarithms of widths as near each other say nothing of the power.
-constexpr double kTellsOfPower = 0.02;
-
 bool is_too_wide(const FittedPlane& plane, double cap) { return is_measured(plane) && plane.width() > cap; }
 
 std::size_t count_too_wide(const Covering& covering, double cap) {
@@ -117,52 +109,6 @@ bool Approximation::look_further(double width, Covering& covering) {
     if (was_last) break;
   }
   return is_found;
-}
-
-/// Fewer facets than a covering that fits over all points. What the fits have not seen may be above the
-/// fewer: then they see it, and it is looked for again.
-void Approximation::look_for_fewer(double width, Covering& covering) {
-  for (int round = 0; round < kMostRoundsOfPoints; ++round) {
-    Covering fewer = covering;
-    if (!look_further(width, fewer) || fewer.planes.size() >= covering.planes.size()) return;
-    const TrueWidths widths = true_widths(fewer);
-    if (widths.widest() <= width) {
-      covering = std::move(fewer);
-      return;
-    }
-    const std::size_t known = extra_.size();
-    add_offenders(fewer, widths, width);
-    if (extra_.size() == known) return;
-    make_space(true);
-  }
-}
-
-/// So many facets, narrower: their number falls like a power of the width, which shows from width to width.
-void Approximation::look_for_narrower(std::uint64_t count, CountSearch& search) {
-  const double wanted = kNearlyAll * static_cast<double>(count);
-  const double power_of_ball = std::max(1.0, 0.5 * (static_cast<double>(space_->rank()) - 1.0));
-  double power = power_of_ball, width = search.width, last_width = HUGE_VAL, last_count = 0.0;
-  int in_vain = 0;
-  for (int i = 0; i < kMostWidths && search.width > flat() && !growth_.is_late(); ++i) {
-    Covering covering = search.narrowest;
-    if (!look_further(width, covering)) {
-      if (i == 0 || ++in_vain == kMostInVain) return;
-      width = 0.5 * (width + search.width);
-      continue;
-    }
-    const double before = search.width, found = static_cast<double>(covering.planes.size());
-    const bool is_narrower =
-        covering.planes.size() <= count && consider(covering, search.slab, search) < before;
-    if (i > 0 && !is_narrower && ++in_vain == kMostInVain) return;
-    if (i > 0 && is_narrower && found >= wanted) return;
-    if (std::abs(std::log(last_width / width)) > kTellsOfPower) {
-      if (i > 0)
-        power = std::clamp(std::log(found / last_count) / std::log(last_width / width), 1.0, power_of_ball);
-      last_width = width;
-      last_count = found;
-    }
-    width = std::min(width * std::pow(found / wanted, 1.0 / power), (1.0 - kLeastNarrower) * search.width);
-  }
 }
 
 }  // namespace ndhull

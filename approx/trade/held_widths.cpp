@@ -1,5 +1,5 @@
 // A number of facets where growth leaves out points that are far above simplices: the part of
-// approx/trade/approximation.h that then looks for the width.
+// approx/trade/count_approximation.h that then looks for the width.
 //
 // Idea. How many facets slabs of a width leave says little there: most may be simplices that are too wide
 // alone, and taking in what is above these changes the number by any factor. So a width is held until growth
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "approx/trade/approximation.h"
+#include "approx/trade/count_approximation.h"
 #include "approx/trade/count_limits.h"
 
 namespace ndhull {
@@ -32,22 +32,21 @@ constexpr double kSteep = 1.5, kShortestStep = 0.02, kLongestStep = 0.25, kStepW
 }  // namespace
 
 /// Is there room and time for growth to go on? A part of the room is left for the widths after the first.
-bool Approximation::may_grow_held(const CountSearch& search, double share) {
+bool CountApproximation::may_grow_held(double share) {
   const double most = share * static_cast<double>(std::min(kMostHeld, affordable_rows_));
-  return !growth_.is_limited() && !growth_.is_late() && search.covered <= most_covered(accuracy_.facets) &&
+  return !growth_.is_limited() && !growth_.is_late() && search_.covered <= most_covered(count_) &&
          static_cast<double>(live_count()) < most;
 }
 
 /// Facets no wider than this over all points. No planes: growth would have to go on further than it may.
 /// Nothing: `only_if_far`, and no simplex alone is much wider than the slabs.
-std::optional<Covering> Approximation::hold_width(double width, double outside_width, double share,
-                                                  bool only_if_far, CountSearch& search) {
+std::optional<Covering> CountApproximation::hold_width(double width, double share, bool only_if_far) {
   for (int round = 0;; ++round) {
     make_space(true);
-    const bool may_grow = may_grow_held(search, share) && round < kHoldRounds;
+    const bool may_grow = may_grow_held(share) && round < kHoldRounds;
     FacetLimit no_limit;
     std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
-    search.covered += live_count() / (slabs ? kDisjointQuicker : 1);
+    search_.covered += live_count() / (slabs ? kDisjointQuicker : 1);
     const bool is_asked = only_if_far && round == 0;
     if (is_asked && (!slabs || slabs->unfit == 0)) return std::nullopt;
     Covering covering = slabs ? covering_of(*slabs, *space_)
@@ -59,21 +58,20 @@ std::optional<Covering> Approximation::hold_width(double width, double outside_w
     if (widths.widest() <= width) return covering;
     const std::vector<LocatedPoint> above = add_offenders(covering, widths, width).above_simplices;
     if (!may_grow || above.empty()) return Covering{};
-    search.narrowest = Covering{};
+    search_.narrowest = Covering{};
     growth_.put_back(above);
-    while (growth_.furthest_height() > width && may_grow_held(search, share))
-      if (growth_.grow_to(outside_width, live_count() + kGrownAtOnce, HUGE_VAL)) break;
-    locate_left_out(outside_width);
+    while (growth_.furthest_height() > width && may_grow_held(share))
+      if (growth_.grow_to(outside_width_, live_count() + kGrownAtOnce, HUGE_VAL)) break;
+    locate_left_out(outside_width_);
   }
 }
 
 /// The least width held by at most `count` facets, about, from a first one on. Leaves the narrowest.
 /// `only_if_far`: nothing is looked for where no point is so far above a simplex that this is much wider alone
 /// than slabs of the first width.
-void Approximation::search_held(std::uint64_t count, double first_width, double outside_width,
-                                bool only_if_far, CountSearch& search) {
+void CountApproximation::search_held(double first_width, bool only_if_far) {
   if (only_if_far && (growth_.is_limited() || growth_.furthest_height() < kFarOutside * first_width)) return;
-  const double wanted = std::log(static_cast<double>(count));
+  const double wanted = std::log(static_cast<double>(count_));
   double power = kSteep * 0.5 * (static_cast<double>(growth_.work().rank) - 1.0);
   struct Held {
     double log_width, log_count;
@@ -82,21 +80,19 @@ void Approximation::search_held(std::uint64_t count, double first_width, double 
   double log_width = std::log(first_width), share = kShareAtFirst;
   for (int trial = 0; trial < kWidths && !growth_.is_late(); ++trial) {
     const double width = std::exp(log_width);
-    std::optional<Covering> held = hold_width(width, outside_width, share, only_if_far && trial == 0, search);
+    std::optional<Covering> held = hold_width(width, share, only_if_far && trial == 0);
     if (!held) return;
     Covering& covering = *held;
     share = std::min(1.0, share + kShareMore);
-    if (covering.planes.size() > count && covering.planes.size() <= 2 * count &&
-        is_worth_joining(count, live_count()))
+    if (covering.planes.size() > count_ && covering.planes.size() <= 2 * count_ && is_worth_joining())
       join_neighbours(covering, width);
     const std::size_t facets = covering.planes.size();
     if (covering.planes.empty()) {  // as if they were too many
       many = Held{log_width, wanted + kStepWhereNotHeld * power};
     } else {
-      (facets <= count ? few : many) = Held{log_width, std::log(static_cast<double>(facets))};
-      if (facets <= count && keeps_hull(covering)) consider(covering, width, search);
-      if (facets <= count &&
-          (few->log_count > wanted + std::log(kNearlyCount) || !may_grow_held(search, share)))
+      (facets <= count_ ? few : many) = Held{log_width, std::log(static_cast<double>(facets))};
+      if (facets <= count_ && keeps_hull(covering)) consider(covering, width);
+      if (facets <= count_ && (few->log_count > wanted + std::log(kNearlyCount) || !may_grow_held(share)))
         return;
     }
     if (few && many) {

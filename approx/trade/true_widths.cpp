@@ -59,16 +59,6 @@ TrueWidths Approximation::true_widths(const Covering& covering) {
   return result;
 }
 
-/// Remembers the narrowest over all points. Returns how wide it is.
-double Approximation::consider(const Covering& covering, double slab, CountSearch& search) {
-  const double width = true_widths(covering).widest();
-  if (search.has_any() && width >= search.width) return width;
-  search.narrowest = covering;
-  search.width = width;
-  search.slab = slab;
-  return width;
-}
-
 /// The points left out that are furthest above the planes of these simplices.
 std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::uint32_t> simplices) {
   const std::size_t rank = space_->rank();

@@ -1,0 +1,54 @@
+// A target width: no facet is wider, and as few facets as possible.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "approx/trade/approximation.h"
+
+namespace ndhull {
+
+/// One approximate hull for a width.
+class WidthApproximation : private Approximation {
+ public:
+  explicit WidthApproximation(const ApproximationTask& task);
+
+  ApproximateFacets run();
+
+ private:
+  FacetClusters find_facets();
+
+  void choose_order();
+  bool will_take_in_all() const;
+  bool is_without_limits() const;
+  bool find_stars();
+  bool take_star_hull(double rows);
+  void grow();
+  void grow_in_stages();
+
+  bool is_limited() const { return limit_ != HullStatus::kComplete; }
+  bool may_go_on(double seconds_of_round);
+  bool settles_for_wider();
+  bool leaves_out_hardly_any() const;
+  double less_outside(int round) const;
+  void take_in_far(std::span<const LocatedPoint> far, int round);
+  std::vector<LocatedPoint> few_far_above() const;
+
+  bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
+  bool is_worth_looking_further(std::size_t facets) const;
+  bool is_final(const DualFacets& facets) const;
+  Covering cover(std::optional<DualFacets> slabs, HullFacets* known);
+  void look_for_fewer(Covering& covering);
+
+  double input_bytes_;
+  EarlierRun earlier_;
+  double target_;         // [distance] no facet is to be wider
+  double outside_width_;  // [distance] points that are less than this outside are left out
+  double slab_;           // [distance] width of the slabs, at most the target
+  HullStatus limit_ = HullStatus::kComplete;  // that has ended growth, and a wider one is looked for
+  bool has_too_many_vertices_ = false;        // for stars, as far as is foreseen
+  std::optional<StarHull> star_hull_;
+};
+
+}  // namespace ndhull
