@@ -19,7 +19,8 @@ namespace ndhull {
 struct EarlierRun {
   bool has_run_out = false;      ///< of memory: it may end as before
   bool has_tried_exact = false;  ///< as far as that was worth it: it is not what is wanted
-  /// An attempt at the exact hull: its limit on simplices is one on work, and facets found whole may have more.
+  /// An attempt at the exact hull: its limit on simplices is one on work, and facets found whole may have
+  /// more.
   bool limits_work = false;
   std::uint64_t facets = 0;  ///< 0, or how many whole facets of it are joined to
 };
@@ -44,7 +45,7 @@ struct ApproximateFacets {
   /// So many points share planes that the exact hull may have no more facets than are asked for: it is to be
   /// tried first, and there are no clusters.
   bool wants_exact_first = false;
-  /// It was asked for in a way that a hull without its complex answers, which has no early end.
+  /// A width was asked for that a hull without its complex could have, which has no early end.
   bool may_do_without_complex = false;
 };
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "approx/facets/exact_facets.h"
 #include "approx/slabs/merge_rule.h"
 #include "approx/slabs/segment_merge.h"
 #include "approx/trade/cluster_merge.h"
+#include "approx/trade/region_closing.h"
 #include "core/ids.h"
 #include "core/machine/stopwatch.h"
 

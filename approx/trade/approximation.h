@@ -14,7 +14,6 @@
 #include "approx/slabs/slab_partition.h"
 #include "approx/slabs/width_space.h"
 #include "approx/trade/approximate_facets.h"
-#include "approx/trade/region_closing.h"
 #include "core/machine/blocks.h"
 #include "core/machine/huge_array.h"
 #include "core/search/point_tree.h"

@@ -49,7 +49,7 @@ class CountApproximation : private Approximation {
   bool is_coarse_for(double slab);
   bool is_whole();
 
-  // Slabs of which width. (count_cover.cpp, held_widths.cpp)
+  // Slabs of which width. (also count_cover.cpp, held_widths.cpp)
   bool is_worth_joining() const;
   void close_and_join(Covering& covering, double width, bool joins) const;
   TriedWidth try_width(const CoverEffort& effort, double width, std::optional<SlabCover>& overlapping);

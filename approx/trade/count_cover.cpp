@@ -6,6 +6,7 @@
 
 #include "approx/trade/count_approximation.h"
 #include "approx/trade/count_limits.h"
+#include "approx/trade/region_closing.h"
 
 namespace ndhull {
 namespace {
@@ -23,8 +24,8 @@ constexpr double kFarAbove = 0.65;
 
 }  // namespace
 
-/// Is it worth its time to join neighbours that fit into one slab? Of few facets, and of degenerate data: there
-/// slabs start from planes that rounding has drawn, and two may share what one could hold.
+/// Is it worth its time to join neighbours that fit into one slab? Of few facets, and of degenerate data:
+/// there slabs start from planes that rounding has drawn, and two may share what one could hold.
 bool CountApproximation::is_worth_joining() const {
   return count_ <= kFewFacets || has_few_small(count_, live_count()) || is_degenerate();
 }
@@ -61,7 +62,7 @@ CountApproximation::TriedWidth CountApproximation::try_width(const CoverEffort& 
   return {covering.planes.size(), std::move(covering)};
 }
 
-/// The covering by the narrowest slabs found that needs at most `count` facets, and hardly less;
+/// The covering by the narrowest slabs found that needs at most that number of facets, and hardly less;
 /// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
 /// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where it falls off a cliff
 /// (answers 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more than a hull has to have

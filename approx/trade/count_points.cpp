@@ -2,9 +2,9 @@
 // approx/trade/count_approximation.h that takes them in when facets have been balanced.
 //
 // Idea. Where growth has left points out, one may be so far above some simplices that they are too wide
-// alone: neither other slabs nor more facets help. When such a facet is the widest, its points are taken in. A few
-// insertions replace some simplices, the others keep their facets, and balance goes on from there. Where the
-// widest facet is large that would not help: more vertices make it wider.
+// alone: neither other slabs nor more facets help. When such a facet is the widest, its points are taken in.
+// A few insertions replace some simplices, the others keep their facets, and balance goes on from there.
+// Where the widest facet is large that would not help: more vertices make it wider.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -12,6 +12,7 @@
 
 #include "approx/trade/count_approximation.h"
 #include "approx/trade/facet_carry.h"
+#include "approx/trade/region_closing.h"
 
 namespace ndhull {
 namespace {

@@ -6,7 +6,6 @@
 // stay too wide the deepest simplex becomes a facet of its own, until none is: fewer come back than had
 // joined.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -30,6 +29,7 @@ constexpr double kHardlyFewer = 0.995;
 constexpr double kTurnError = 1e-6;
 /// What joining takes: for a facet, for each dimension of it, and for a row.
 constexpr std::size_t kFacetBytes = 700, kFacetBytesOfRank = 80, kRowBytes = 24;
+
 bool is_too_wide(const FittedPlane& plane, double cap) { return is_measured(plane) && plane.width() > cap; }
 
 std::size_t count_too_wide(const Covering& covering, double cap) {

@@ -66,7 +66,7 @@ std::optional<Covering> CountApproximation::hold_width(double width, double shar
   }
 }
 
-/// The least width held by at most `count` facets, about, from a first one on. Leaves the narrowest.
+/// The least width held by at most that number of facets, about, from a first one on. Leaves the narrowest.
 /// `only_if_far`: nothing is looked for where no point is so far above a simplex that this is much wider alone
 /// than slabs of the first width.
 void CountApproximation::search_held(double first_width, bool only_if_far) {

@@ -8,6 +8,7 @@
 #include "approx/trade/count_approximation.h"
 #include "approx/trade/count_limits.h"
 #include "approx/trade/facet_balance.h"
+#include "approx/trade/region_closing.h"
 
 namespace ndhull {
 namespace {

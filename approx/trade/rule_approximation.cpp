@@ -1,6 +1,5 @@
 #include "approx/trade/rule_approximation.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -25,7 +24,6 @@ ApproximateFacets RuleApproximation::run() {
   ApproximateFacets found;
   grow_outside_width();
   if (accuracy_.merges_neighbours() && growth_.may_cover()) found.clusters = merge();
-  found.determinants = std::move(determinants_);
   return found;
 }
 

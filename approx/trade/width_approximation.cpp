@@ -1,7 +1,6 @@
 #include "approx/trade/width_approximation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "approx/slabs/slab_partition.h"
@@ -40,7 +39,7 @@ ApproximateFacets WidthApproximation::run() {
   found.determinants = std::move(determinants_);
   found.star_hull = std::move(star_hull_);
   found.may_do_without_complex =
-      is_without_limits() && !has_too_many_vertices_ && !growth_.options().wants_simplices;
+      is_width_alone() && !has_too_many_vertices_ && !growth_.options().wants_simplices;
   return found;
 }
 
@@ -110,7 +109,7 @@ std::vector<LocatedPoint> WidthApproximation::few_far_above() const {
 /// Is there time for another round, the last one having taken so long?
 bool WidthApproximation::may_go_on(double seconds_of_round) {
   constexpr double kRounds = 2.5;  // and the facet table
-  if (!is_limited() || growth_.options().stop.stop_requested()) return !growth_.is_late();
+  if (!has_settled() || growth_.options().stop.stop_requested()) return !growth_.is_late();
   return growth_.seconds_left() > kRounds * seconds_of_round;
 }
 
@@ -118,9 +117,9 @@ bool WidthApproximation::may_go_on(double seconds_of_round) {
 /// are left out make them: simplices, of which there are many times more, are hardly narrower. True when that
 /// is wider than the target was.
 bool WidthApproximation::settles_for_wider() {
-  if (is_limited()) return false;
+  if (has_settled()) return false;
   limit_ = growth_.go_on_within_limit();
-  if (!is_limited()) return false;
+  if (!has_settled()) return false;
   outside_width_ = std::max(outside_width_, growth_.furthest_height());
   const double least = outside_width_ / kShareOutside;
   if (least <= target_) return false;
@@ -160,10 +159,10 @@ FacetClusters WidthApproximation::find_facets() {
     const Clock::time_point round_start = Clock::now();
     const bool may_cover = growth_.may_cover();
     if (settles_for_wider()) known.width = slab_ = target_;
-    if (!may_cover && (!is_limited() || hull_.status == HullStatus::kInterrupted)) return FacetClusters{};
+    if (!may_cover && (!has_settled() || hull_.status == HullStatus::kInterrupted)) return FacetClusters{};
     make_space(true);
     const bool may_grow = !is_last && !growth_.is_limited();
-    if (round == 0 && may_grow && !is_limited() && leaves_out_hardly_any()) {
+    if (round == 0 && may_grow && !has_settled() && leaves_out_hardly_any()) {
       outside_width_ = 0.0;
       take_in_outside(outside_width_);
       continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "approx/trade/approximation.h"
+#include "approx/trade/region_closing.h"
 
 namespace ndhull {
 
@@ -21,13 +22,14 @@ class WidthApproximation : private Approximation {
 
   void choose_order();
   bool will_take_in_all() const;
-  bool is_without_limits() const;
+  bool is_width_alone() const;
   bool find_stars();
   bool take_star_hull(double rows);
   void grow();
   void grow_in_stages();
 
-  bool is_limited() const { return limit_ != HullStatus::kComplete; }
+  /// A limit has ended growth, and facets may be wider.
+  bool has_settled() const { return limit_ != HullStatus::kComplete; }
   bool may_go_on(double seconds_of_round);
   bool settles_for_wider();
   bool leaves_out_hardly_any() const;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ndhull {
 namespace {
@@ -29,7 +28,7 @@ constexpr double kMostComplexBytes = 0x1p29, kMostOfInput = 2.0, kLargeInput = 0
 
 }  // namespace
 
-/// Growth for slabs of their width; then it is known where the points left out are.
+/// Growth for the slabs; then it is known where the points left out are.
 void WidthApproximation::grow() {
   grow_in_stages();
   growth_.work().options.by_gauge = false;
@@ -41,9 +40,10 @@ void WidthApproximation::grow() {
   }
 }
 
-/// Grows some simplices, and sees whether all points will be vertices whatever their order.
+/// Grows some simplices, and sees whether all points will be vertices whatever their order. Without limits
+/// points may also be added side by side.
 void WidthApproximation::choose_order() {
-  if (!is_without_limits()) return;
+  if (!is_width_alone()) return;
   GrowthOptions& options = growth_.work().options;
   options.in_regions = !growth_.options().limits.has_any();
   for (std::uint64_t rows = kRowsBeforeGauges; rows <= kMostRowsBeforeGauges && !options.by_gauge;
@@ -96,7 +96,7 @@ void WidthApproximation::grow_in_stages() {
 /// large input.
 bool WidthApproximation::find_stars() {
   const std::uint64_t most_rows = growth_.most_rows();
-  if (!is_without_limits() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
+  if (!is_width_alone() || (input_bytes_ < kLargeInput && most_rows == 0)) return false;
   const std::uint64_t enough = most_rows == 0
                                    ? kRowsBeforeStars
                                    : std::min(kRowsBeforeStars, std::max<std::uint64_t>(1, most_rows / 4));
@@ -158,7 +158,7 @@ bool WidthApproximation::leaves_out_hardly_any() const {
 double WidthApproximation::less_outside(int round) const {
   constexpr int kPatience = 4;
   constexpr double kLess = 0.7;
-  if (lengths_.outside_width > 0.0 || is_limited()) return outside_width_;
+  if (lengths_.outside_width > 0.0 || has_settled()) return outside_width_;
   if (leaves_out_hardly_any() || round + 1 == kWidthRounds) return 0.0;
   return round < kPatience ? outside_width_ : kLess * outside_width_;
 }
@@ -172,11 +172,12 @@ void WidthApproximation::take_in_far(std::span<const LocatedPoint> far, int roun
   take_in_outside(outside_width_);
 }
 
-/// Is a width asked for that stars could answer, which have no early end?
-bool WidthApproximation::is_without_limits() const {
+/// Nothing but the width was asked for that decides what growth leaves out or when it ends; the user's limit
+/// on memory may.
+bool WidthApproximation::is_width_alone() const {
   const HullOptions& options = growth_.options();
-  return lengths_.width > 0.0 && accuracy_.facets == 0 && lengths_.outside_width == 0.0 &&
-         growth_.frame().rank >= 3 && options.limits.max_seconds == 0.0 && options.limits.max_facets == 0;
+  return lengths_.outside_width == 0.0 && frame_.rank >= 3 && options.limits.max_seconds == 0.0 &&
+         options.limits.max_facets == 0;
 }
 
 }  // namespace ndhull

@@ -220,11 +220,14 @@ class Grower {
   void list_gauges();
   bool is_to_pause(double furthest) const;
   bool has_made_enough() const;
-  double height_before_pause();
+  double least_height_for_regions();
   std::size_t rows_before_pause() const;
   bool may_grow_in_regions();
   bool grow_in_regions(double furthest);
   void make_regions();
+  double& clearance_of(const GrowthRegion& region) {
+    return work_.parting.clearances[static_cast<std::size_t>(&region - regions_.data())];
+  }
   void list_apexes(double furthest);
   void wait_for_parting();
   RegionBorder choose_border(std::uint64_t direction, std::size_t stride);
@@ -354,7 +357,7 @@ bool Grower<D>::has_made_enough() const {
 template <std::size_t D>
 GrowthStop Grower<D>::run() {
   std::uint64_t polled_at = 0;
-  list_gauges();
+  if (work_.options.by_gauge) list_gauges();
   for (;;) {
     const OutsideHeights::Furthest furthest = work_.heights.furthest();
     if (furthest.height <= least_height(work_)) return GrowthStop::kNoOutsidePoints;

@@ -5,6 +5,7 @@
 //         new vertex is where an edge meets the cutting plane). The inward shift is ours: core/DESIGN.md.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -89,8 +90,15 @@ struct PartingRecord {
   std::uint64_t looked_at = 0;        ///< insertions before these
   double ridges = 0.0;                ///< of an insertion
   bool pays = false;                  ///< insertions are small beside the hull
-  double band = kWidestBand;  ///< points whose heights are within this part of the furthest's are tried
-  double clearances[kRegions] = {2.0, 2.0};  ///< of the regions, when they were joined
+  double band = kWidestBand;          ///< points this part below the furthest, in their order, are tried
+  std::array<double, kRegions> clearances{2.0, 2.0};  ///< of the regions, when they were joined
+
+  /// For points that were not there before.
+  void begin_anew() {
+    next_at = 0;
+    alone = kLeastAlone;
+    band = kWidestBand;
+  }
 };
 
 /// Everything that growth works on. Plain tables: the phases are free functions.
@@ -105,7 +113,7 @@ struct GrowthWork {
 
   std::vector<std::uint32_t> next_outside;    ///< per point: next of the same outside set + 1, 0 at the end
   OutsideHeights heights;                     ///< above the simplices in whose outside sets points are
-  OutsideHeights gauges;                      ///< the same as gauges; only while growth goes by them
+  OutsideHeights gauges;                      ///< the same as gauges, while growth goes by them: else empty
   std::uint64_t points_outside = 0;           ///< in outside sets
   std::vector<std::uint32_t> waiting;         ///< ascending; neither in an outside set nor known to be inside
   double waiting_height = 0.0;                ///< no waiting point is further above the hull; may be +inf

@@ -47,7 +47,11 @@ namespace ndhull {
 
 GrowthStop grow(GrowthWork& work) {
   const GrowthStop stop = NDHULL_BEST_OF(run_growth)(work);
-  if (stop == GrowthStop::kNoOutsidePoints) forget_outside(work);
+  work.gauges = OutsideHeights();
+  if (stop == GrowthStop::kNoOutsidePoints) {
+    forget_outside(work);
+    work.parting.begin_anew();  // what comes next are other points
+  }
   return stop;
 }
 

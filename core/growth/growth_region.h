@@ -13,9 +13,9 @@ namespace ndhull {
 /// A point that a region may add: the head of an outside set.
 struct RegionApex {
   std::uint32_t point;
-  double height;
-  double reach;  ///< about how far dual vertices of simplices that it sees are from that of its simplex
-  double value;  ///< of its simplex, beside the border
+  double height;  ///< or gauge, as growth orders points
+  double reach;   ///< about how far dual vertices of simplices that it sees are from that of its simplex
+  double value;   ///< of its simplex, beside the border
 };
 
 /// Dual vertices a with weights[0] a[axes[0]] + weights[1] a[axes[1]] > least.
@@ -36,8 +36,8 @@ struct HaltedPoint {
 struct GrowthRegion {
   RegionBorder border;
   double clearance = 0.0;     ///< points nearer to the border than so many times their reach are not tried
-  double least_height = 0.0;  ///< lower points are not tried; as growth orders points, by heights or gauges
-  double height_before_pause = 0.0;  ///< nor are points whose height is no more than this
+  double band_floor = 0.0;    ///< points that are lower in the order of growth are not tried
+  double least_height = 0.0;  ///< nor are points whose height is no more than this
   std::uint64_t most_created = 0;
 
   std::vector<RegionApex> apexes;  ///< the furthest first

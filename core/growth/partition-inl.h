@@ -94,8 +94,6 @@ void Grower<D>::partition(std::uint32_t apex) {
 
 template <std::size_t D>
 void Grower<D>::list_gauges() {
-  work_.gauges = OutsideHeights();
-  if (!work_.options.by_gauge) return;
   std::vector<std::uint32_t> outside;
   work_.heights.list_above(0.0, outside);
   work_.gauges.reset(work_.point_count);

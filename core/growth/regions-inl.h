@@ -16,6 +16,7 @@
 #define NDHULL_REGIONS_INL_H_
 #endif
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/growth/grower-inl.h"
@@ -67,13 +68,14 @@ void Grower<D>::take_outside(std::uint32_t id) {
   region_->written.push_back(id);
 }
 
-/// No lower point may be added if growth is to pause when none is higher.
+/// No lower point may be added: while growth is to come down to a height before it may pause, or below what
+/// counts as outside.
 template <std::size_t D>
-double Grower<D>::height_before_pause() {
+double Grower<D>::least_height_for_regions() {
   const GrowthOptions& options = work_.options;
-  const bool is_height_missing =
+  const bool is_to_come_down =
       options.pause_rows != 0 && work_.heights.furthest().height > options.pause_height;
-  return is_height_missing ? options.pause_height : 0.0;
+  return std::max(least_height(work_), is_to_come_down ? options.pause_height : 0.0);
 }
 
 /// Simplices that regions may make, not to have many more than those growth is to pause at.
@@ -134,8 +136,8 @@ bool Grower<D>::grow_in_regions(double furthest) {
   return true;
 }
 
-/// Points are added one by one for a while, which is longer each time: to look for a border costs about as much
-/// as to add one.
+/// Points are added one by one for a while, which is longer each time: to look for a border costs about as
+/// much as to add one.
 template <std::size_t D>
 void Grower<D>::wait_for_parting() {
   constexpr std::uint64_t kMostAlone = 256;
@@ -160,18 +162,17 @@ template <std::size_t D>
 void Grower<D>::list_apexes(double furthest) {
   constexpr std::size_t kMany = 512, kPartOfPoints = 16;
   high_.clear();
-  const double least = (1.0 - work_.parting.band) * furthest;
-  order().list_above(least, high_);
-  const double before_pause = height_before_pause();
+  const double band_floor = (1.0 - work_.parting.band) * furthest, least = least_height_for_regions();
+  order().list_above(band_floor, high_);
   for (GrowthRegion& region : regions_) {
+    region.band_floor = band_floor;
     region.least_height = least;
-    region.height_before_pause = before_pause;
   }
   apexes_.clear();
   duals_.clear();
   for (const std::uint32_t id : high_) {
     const std::uint32_t row = work_.heights.row(id);
-    if (head_[row] != id + 1 || work_.heights.height(id) <= before_pause) continue;
+    if (head_[row] != id + 1 || work_.heights.height(id) <= least) continue;
     const double* record = plane(row);
     const double length_sq = std::inner_product(record, record + D, record, 0.0);
     const double gauge = std::max(0.0, gauge_above<D>(record, point(id)));
@@ -209,11 +210,14 @@ template <std::size_t D>
 bool Grower<D>::part_into_regions(double furthest) {
   constexpr std::size_t kFew = 32, kTrials = 4, kSample = 128;
   list_apexes(furthest);
-  if (apexes_.size() < kFew) return false;
+  if (apexes_.size() < kFew) {
+    work_.parting.band = PartingRecord::kWidestBand;
+    return false;
+  }
   const std::size_t stride = 1 + apexes_.size() / kSample;
   const auto side_of = [&](const RegionApex& apex, double least) -> GrowthRegion* {
     GrowthRegion& region = regions_[apex.value > least ? 0 : 1];
-    const double clearance = work_.parting.clearances[&region - regions_.data()];
+    const double clearance = clearance_of(region);
     return std::abs(apex.value - least) > clearance * apex.reach ? &region : nullptr;
   };
   std::uint64_t best = 0;
@@ -244,7 +248,7 @@ bool Grower<D>::part_into_regions(double furthest) {
       return a.height != b.height ? a.height > b.height : a.point < b.point;
     });
     region.apexes.resize(most);
-    region.clearance = work_.parting.clearances[&region - regions_.data()];
+    region.clearance = clearance_of(region);
   }
   return true;
 }
@@ -301,7 +305,7 @@ void Grower<D>::join_regions(double seconds) {
     for (const std::uint32_t id : region.written) work_.heights.settle(id);
     if (work_.options.by_gauge)
       for (const std::uint32_t id : region.written) work_.gauges.settle(id);
-    work_.parting.clearances[&region - regions_.data()] = region.clearance;
+    clearance_of(region) = region.clearance;
   }
   books_.row_count = row;
   for (const GrowthRegion& region : regions_)
@@ -327,8 +331,8 @@ void Grower<D>::grow_region() {
     if (std::abs(apex.value) < region_->clearance * apex.reach) continue;
     if (work_.heights.height(apex.point) == OutsideHeights::kNotOutside) continue;
     const std::uint32_t row = work_.heights.row(apex.point), head = head_[row] - 1;
-    if (order().height(head) <= region_->least_height) continue;
-    if (work_.heights.height(head) <= region_->height_before_pause) continue;
+    if (order().height(head) <= region_->band_floor) continue;
+    if (work_.heights.height(head) <= region_->least_height) continue;
     if (insert_in_region(head, row)) {
       region_->clearance = std::max(0.0, region_->clearance - kOnAfterSuccess);
     } else {

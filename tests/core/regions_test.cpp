@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/complex/complex_check.h"
@@ -17,8 +19,10 @@ namespace ndhull {
 namespace {
 
 struct Grown {
-  Grown(const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0,
-        const GrowthOptions& options = {}) {
+  Grown(
+      const PointSet& set, bool in_regions, int threads, std::uint64_t pause_rows = 0,
+      const GrowthOptions& options = {},
+      const std::function<void(GrowthOptions&)>& at_pause = [](GrowthOptions&) {}) {
     const Frame frame = prepare_growth(set.view(), coordinates, work);
     work.options = options;
     if (options.by_gauge) work.options.gradient_factor = unequal_axes(work.rank);
@@ -32,6 +36,7 @@ struct Grown {
         ++pauses;
         pause_rows += pause_rows / 2;  // growth has taken it back
         work.options.pause_rows = pause_rows;
+        at_pause(work.options);
       }
     });
   }
@@ -41,6 +46,13 @@ struct Grown {
   GrowthWork work;
   int pauses = 0;
 };
+
+/// As `Grown` is told to grow.
+GrowthOptions by_gauge() {
+  GrowthOptions options;
+  options.by_gauge = true;
+  return options;
+}
 
 struct Case {
   const char* words;  // of rbox
@@ -64,33 +76,29 @@ TEST_P(GrowthInRegions, MakesTheSimplicesOfGrowthByOne) {
   EXPECT_LE(parted.work.counters.created, alone.work.counters.created / 20 * 21);
 }
 
+void expect_same_bytes(const GrowthWork& one, const GrowthWork& other) {
+  const SimplicialComplex &a = one.complex, &b = other.complex;
+  const std::size_t rows = a.row_count, rank = one.rank;
+  ASSERT_EQ(b.row_count, rows);
+  EXPECT_EQ(other.counters.created, one.counters.created);
+  EXPECT_EQ(std::memcmp(a.planes.data(), b.planes.data(), rows * rank * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(a.topology.data(), b.topology.data(), rows * 2 * rank * sizeof(std::uint32_t)), 0);
+  EXPECT_EQ(std::memcmp(a.state.data(), b.state.data(), rows), 0);
+  EXPECT_TRUE(
+      std::equal(one.free_rows.data(), one.free_rows.data() + one.free_count, other.free_rows.data()));
+}
+
 TEST_P(GrowthInRegions, HasTheSameBytesForAnyNumberOfThreads) {
   const PointSet set = rbox(GetParam().words);
-  const Grown one(set, true, 1);
-  const std::size_t rows = one.work.complex.row_count, rank = one.work.rank;
-  for (const int threads : {2, 3}) {
-    const Grown more(set, true, threads);
-    const SimplicialComplex &a = one.work.complex, &b = more.work.complex;
-    ASSERT_EQ(b.row_count, rows);
-    EXPECT_EQ(more.work.counters.created, one.work.counters.created);
-    EXPECT_EQ(std::memcmp(a.planes.data(), b.planes.data(), rows * rank * sizeof(double)), 0);
-    EXPECT_EQ(std::memcmp(a.topology.data(), b.topology.data(), rows * 2 * rank * sizeof(std::uint32_t)), 0);
-    EXPECT_EQ(std::memcmp(a.state.data(), b.state.data(), rows), 0);
-    EXPECT_TRUE(std::equal(one.work.free_rows.data(), one.work.free_rows.data() + one.work.free_count,
-                           more.work.free_rows.data()));
+  for (const GrowthOptions& options : {GrowthOptions(), by_gauge()}) {
+    const Grown one(set, true, 1, 0, options);
+    for (const int threads : {2, 3}) expect_same_bytes(one.work, Grown(set, true, threads, 0, options).work);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, GrowthInRegions,
                          testing::Values(Case{"20000 s D3 t1", 6000}, Case{"6000 s D4 t2", 2000},
                                          Case{"4000 s D5 t3", 2000}, Case{"2500 s D6 t4", 600}));
-
-/// As `Grown` is told to grow.
-GrowthOptions by_gauge() {
-  GrowthOptions options;
-  options.by_gauge = true;
-  return options;
-}
 
 TEST_P(GrowthInRegions, MayGoByGauges) {
   const PointSet set = rbox(GetParam().words);
@@ -99,6 +107,23 @@ TEST_P(GrowthInRegions, MayGoByGauges) {
   EXPECT_EQ(simplices_of(parted.work.complex), simplices_of(alone.work.complex));
   // In that order: by distances, which are very unequal, more would be made.
   EXPECT_LE(parted.work.counters.created, alone.work.counters.created / 20 * 21);
+}
+
+// The order of growth, and whether it goes on in regions, may change where it pauses.
+TEST(GrowthInRegionsOfOtherData, ChangesItsOrderWhereItPauses) {
+  const PointSet set = rbox("4000 s D5 t8");
+  const auto grow_by_turns = [&](int threads) {
+    auto grown = std::make_unique<Grown>(set, false, threads, 9000, by_gauge(), [](GrowthOptions& options) {
+      options.by_gauge = !options.by_gauge;
+      options.in_regions = !options.in_regions;
+    });
+    EXPECT_GT(grown->pauses, 2);
+    EXPECT_GT(grown->work.counters.in_regions, 0u);
+    return grown;
+  };
+  const auto one = grow_by_turns(1), two = grow_by_turns(2);
+  EXPECT_EQ(simplices_of(one->work.complex), simplices_of(Grown(set, false, 1).work.complex));
+  expect_same_bytes(one->work, two->work);
 }
 
 TEST(GrowthInRegionsOfOtherData, IsAHullWhereItPauses) {
