@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "approx/polytope/outer_volume.h"
+#include "approx/report.h"
 #include "tools/command_line/machine_memory.h"
+#include "tools/io/point_reader.h"
 
 namespace ndhull {
 namespace {

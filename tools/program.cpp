@@ -15,6 +15,7 @@
 
 #include "approx/report.h"
 #include "core/error.h"
+#include "core/machine/arena.h"
 #include "tools/command_line/command_options.h"
 #include "tools/command_line/exit_code.h"
 #include "tools/contains_command.h"

@@ -1,6 +1,7 @@
 #include "approx/rays/sample_bounds.h"
 
 #include <cmath>
+#include <initializer_list>
 
 namespace ndhull {
 namespace {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "core/ids.h"
 #include "core/whole_facets/double_description.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/machine/arena.h"
 #include "tools/io/text_source.h"
 
 namespace ndhull {
