@@ -5,12 +5,12 @@
 #include <numeric>
 #include <optional>
 
+#include "approx/facets/highest_points.h"
 #include "approx/facets/listed_facets.h"
 #include "approx/geometry/measure_scale.h"
 #include "core/dimension_switch.h"
 #include "core/id_rows.h"
 #include "core/machine/blocks.h"
-#include "core/search/furthest_points.h"
 #include "core/search/highest_dots.h"
 #include "core/search/plane_kernels.h"
 
@@ -85,7 +85,10 @@ class TableMaker {
                      [&](std::size_t begin, std::size_t end) { begin_block(begin, end); });
       find_own_dots(complex_, layout_, merged_vertices_, points_, table_.normals.data(),
                     {low(0, count_), high(0, count_), close_});
-      if (searches_many_points()) search_many_points();
+      if (searches_many_points())
+        find_highest_of_many(
+            complex_, layout_, points_,
+            {normals(0, count_), low(0, count_), high(0, count_), close_, highest(0, count_)});
       for_each_block(count_, kFacetsInBlock,
                      [&](std::size_t begin, std::size_t end) { end_block(begin, end); });
     } else {
@@ -102,8 +105,7 @@ class TableMaker {
 
  private:
   static constexpr std::size_t kFacetsInBlock = 4096;
-  static constexpr std::size_t kFewFacets = 256;    // grouping the points costs more than it saves
-  static constexpr std::size_t kManyPoints = 8192;  // most of them no vertices: far from most facets
+  static constexpr std::size_t kFewFacets = 256;  // grouping the points costs more than it saves
 
   // Until a block is finished its rows hold what the offsets are made of: the smallest and the largest
   // product with the facet's own vertices, the largest with any point, and the determinants.
@@ -137,7 +139,7 @@ class TableMaker {
 
   bool searches_many_points() const {
     return certifies_ && known_.highest.empty() && count_ >= kFewFacets &&
-           points_.rows.size() / dimension_ >= kManyPoints;
+           are_many_points(dimension_, points_.rows.size() / dimension_, count_);
   }
 
   void begin_block(std::size_t begin, std::size_t end) {
@@ -174,28 +176,6 @@ class TableMaker {
     if (begin == end) return;
     highest_dots(*groups_, normals(begin, end), {low(begin, end), high(begin, end), own_count, close},
                  highest(begin, end));
-  }
-
-  void search_many_points() {
-    const StridedRows rows{points_.rows.data(), points_.rows.size() / dimension_, dimension_};
-    std::vector<double> lowest(dimension_, HUGE_VAL), largest(dimension_, -HUGE_VAL);
-    for (std::size_t i = 0; i < points_.rows.size(); i += dimension_) {
-      for (std::size_t k = 0; k < dimension_; ++k) {
-        lowest[k] = std::min(lowest[k], points_.rows[i + k]);
-        largest[k] = std::max(largest[k], points_.rows[i + k]);
-      }
-    }
-    constexpr std::size_t kPlanesAtATime = 1 << 16;  // what is found of each takes little memory then
-    FurthestPoints search(dimension_, rows, lowest, largest, false);
-    search.expect(count_);
-    std::vector<FurthestPoint> furthest;
-    for (std::size_t begin = 0; begin < count_; begin += kPlanesAtATime) {
-      const std::size_t end = std::min(begin + kPlanesAtATime, count_);
-      furthest.assign(end - begin, FurthestPoint{});
-      for (std::size_t facet = begin; facet < end; ++facet) furthest[facet - begin].dot = table_.areas[facet];
-      search.find(normals(begin, end), furthest);
-      for (std::size_t facet = begin; facet < end; ++facet) table_.outer[facet] = furthest[facet - begin].dot;
-    }
   }
 
   /// What is known, raised by what a normal that differs from the one it is known for can change.

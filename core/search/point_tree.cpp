@@ -186,7 +186,8 @@ void PointTree::fill(std::span<const double> points) {
       const double furthest = std::abs(double{clusters_.centres[at]}) + clusters_.half_sizes[at];
       corner_sq += furthest * furthest;
     }
-    reach_ = std::max({reach_, double{clusters_.reaches[i]}, std::sqrt(corner_sq)});
+    point_reach_ = std::max(point_reach_, double{clusters_.reaches[i]});
+    reach_ = std::max({reach_, point_reach_, std::sqrt(corner_sq)});
   }
 }
 

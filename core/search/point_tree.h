@@ -47,6 +47,8 @@ class PointTree {
   std::span<const double> middle() const { return middle_; }
   /// No point, and no corner of a box, is longer in those coordinates.
   double reach() const { return reach_; }
+  /// No point is.
+  double point_reach() const { return point_reach_; }
   const Enclosures& groups() const { return groups_; }
   const Enclosures& clusters() const { return clusters_; }
   /// Coordinate k of the kSize points of a group in the enclosures' coordinates; the last point fills the last
@@ -66,7 +68,7 @@ class PointTree {
   std::vector<std::uint32_t> order_;
   std::vector<double> column_sizes_;  // powers of two, at least the largest |x_k|
   std::vector<double> middle_;
-  double reach_ = 0.0;
+  double reach_ = 0.0, point_reach_ = 0.0;
   std::vector<double> points_;      // in order
   std::vector<float> scaled_rows_;  // by groups and columns
   Enclosures groups_, clusters_;

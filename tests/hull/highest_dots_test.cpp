@@ -1,11 +1,13 @@
 #include "core/search/highest_dots.h"
 #include "core/id_rows.h"
+#include "core/search/bundle_search.h"
 #include "core/search/plane_kernels.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,7 +24,9 @@ struct Products {
 
 /// Points on a sphere of radius 1, facets through `dimension` of them only in name: the normals are random,
 /// the "own vertices" the highest points along them. `column_scale` multiplies column k by its k-th power.
-Products sphere(std::size_t dimension, std::size_t count, std::size_t facets, double column_scale) {
+/// `spread`: of normals around an axis, instead of any.
+Products sphere(std::size_t dimension, std::size_t count, std::size_t facets, double column_scale,
+                double spread = HUGE_VAL) {
   std::mt19937_64 random(dimension * 1000 + count);
   std::normal_distribution<double> normal;
   Products products{dimension, {}, {}};
@@ -32,6 +36,10 @@ Products sphere(std::size_t dimension, std::size_t count, std::size_t facets, do
     for (double& value : x) {
       value = normal(random);
       length_sq += value * value;
+    }
+    if (row >= count && spread < HUGE_VAL) {
+      for (std::size_t k = 0; k < dimension; ++k) x[k] = spread * x[k] + (k == 0 ? 1.0 : 0.0);
+      length_sq = std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
     }
     std::vector<double>& rows = row < count ? products.points : products.normals;
     const double power = row < count ? 1.0 : -1.0;
@@ -73,6 +81,15 @@ void expect_all_products(const Products& products, std::size_t own_count) {
     highest_dots(groups, products.normals, {low, high, 0, close}, largest);
     EXPECT_EQ(largest, expected) << "own vertices counted, in order: " << in_order;
   }
+  const PointTree tree(dimension, products.points);
+  std::vector<std::uint32_t> order(facets);
+  std::iota(order.rbegin(), order.rend(), 0);
+  std::fill(largest.begin(), largest.end(), 0.0);
+  highest_dots(tree, products.normals, order, {low, high, own_count}, largest);
+  EXPECT_EQ(largest, expected) << "in bundles";
+  std::fill(largest.begin(), largest.end(), 0.0);
+  highest_dots(tree, products.normals, order, {low, high, 0, close}, largest);
+  EXPECT_EQ(largest, expected) << "in bundles, own vertices counted";
 }
 
 TEST(HighestDotsLaw, TheResultIsThatOfAllProductsDigitForDigit) {
@@ -84,6 +101,19 @@ TEST(HighestDotsLaw, TheResultIsThatOfAllProductsDigitForDigit) {
         const Products products = sphere(dimension, count, 37, column_scale);
         expect_all_products(products, 0);
         expect_all_products(products, std::min(dimension, count - 1));
+      }
+    }
+  }
+}
+
+TEST(HighestDotsLaw, DirectionsMayBeNearEachOther) {
+  for (const std::size_t dimension : {2u, 3u, 5u, 8u, 19u}) {
+    for (const double spread : {0.0, 1e-7, 1e-2, 0.2, 0.6}) {
+      for (const double column_scale : {1.0, 1e3}) {
+        SCOPED_TRACE(std::to_string(dimension) + "-d, " + std::to_string(spread));
+        const Products products = sphere(dimension, 3000, 150, column_scale, spread);
+        expect_all_products(products, 0);
+        expect_all_products(products, dimension);
       }
     }
   }
@@ -110,6 +140,12 @@ TEST(HighestDotsLaw, PointsAHairAboveThePlaneAreFound) {
       const std::vector<std::uint32_t> close{static_cast<std::uint32_t>(dimension)};
       highest_dots(PointGroups(dimension, products.points, false), products.normals, {own, own, 0, close},
                    largest);
+      EXPECT_EQ(largest[0], 1.0 + hair);
+      const std::vector<std::uint32_t> order{0};
+      const PointTree tree(dimension, products.points);
+      highest_dots(tree, products.normals, order, {own, own, dimension}, largest);
+      EXPECT_EQ(largest[0], 1.0 + hair);
+      highest_dots(tree, products.normals, order, {own, own, 0, close}, largest);
       EXPECT_EQ(largest[0], 1.0 + hair);
     }
   }
