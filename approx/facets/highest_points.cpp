@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/machine/blocks.h"
@@ -23,13 +22,10 @@ class BundledFacets {
         points_(points),
         heights_(heights),
         tree_(points.dimension, points.rows),
-        place_of_row_(tree_.point_count()) {
-    for (std::uint32_t place = 0; place < place_of_row_.size(); ++place)
-      place_of_row_[tree_.order()[place]] = place;
-  }
+        place_of_row_(tree_.place_of_rows()) {}
 
   void run() {
-    constexpr std::size_t kFacetsAtATime = std::size_t{1} << 21;  // their order takes little memory then
+    constexpr std::size_t kFacetsAtATime = std::size_t{1} << 22;  // their order takes little memory then
     const std::size_t facets = heights_.highest.size();
     for (std::size_t begin = 0; begin < layout_.in_place; begin += kFacetsAtATime)
       search(begin, std::min(begin + kFacetsAtATime, layout_.in_place), complex_.rank, {});
@@ -50,23 +46,19 @@ class BundledFacets {
                  heights_.highest.subspan(begin, count));
   }
 
-  /// The facets [begin, end), counted from the first.
+  /// The facets [begin, end), counted from the first. Their places stand where the highest products will.
   std::vector<std::uint32_t> order_by_vertex(std::size_t begin, std::size_t end) const {
     constexpr std::size_t kFacetsInBlock = 4096;
-    std::vector<std::uint32_t> first_place(end - begin);
-    for_each_block(end - begin, kFacetsInBlock, [&](std::size_t first, std::size_t last) {
+    const std::span<double> places = heights_.highest.subspan(begin, end - begin);
+    for_each_block(places.size(), kFacetsInBlock, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         std::uint32_t least = ~std::uint32_t{0};
         for (const PointId id : complex_.vertices(first_simplex_of(begin + i)))
           least = std::min(least, place_of_row_[points_.row_of_point[id.value]]);
-        first_place[i] = least;
+        places[i] = least;
       }
     });
-    std::vector<std::uint32_t> next(place_of_row_.size() + 1), order(end - begin);
-    for (const std::uint32_t place : first_place) ++next[place + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[next[first_place[i]]++] = i;
-    return order;
+    return order_by_place(places, place_of_row_.size());
   }
 
   SimplexId first_simplex_of(std::size_t facet) const {

@@ -11,31 +11,31 @@
 
 namespace ndhull {
 
+PlaneTops::PlaneTops(const WidthSpace& space, PointsAbove above)
+    : space_(space), above_(above), normal_(space.rank()) {
+  constexpr std::size_t kFew = 4;  // a part of all: the product with all of them is quicker for each
+  const std::size_t left_out = space.table().count() - space.vertex_count();
+  if (above != PointsAbove::kLeftOut || kFew * left_out > space.table().count()) return;
+  if (left_out == 0) {
+    above_ = PointsAbove::kNoPoint;
+  } else {
+    left_out_ = SupportTable(
+        space.rank(), {space.row(static_cast<std::uint32_t>(space.vertex_count())), left_out * space.rank()});
+  }
+}
+
 double PlaneTops::of_simplex(const double* plane, double length) {
   if (above_ == PointsAbove::kNoPoint) return 1.0;
-  constexpr std::size_t kFew = 4;  // a part of all: the product with all of them is quicker for each
   space_.normal_of({plane, space_.rank()}, normal_.data());
   double height = 1.0 / length, furthest = 0.0;  // n.z = a.y / |R a|
-  const std::size_t left_out = space_.table().count() - space_.vertex_count();
-  if (above_ == PointsAbove::kLeftOut && kFew * left_out <= space_.table().count()) {
-    furthest = height_of_left_out();
+  if (left_out_.count() > 0) {
+    left_out_.find(normal_.data(), work_.products, furthest);
   } else if (space_.is_large()) {
     furthest = space_.furthest(normal_, height).dot;
   } else {
     space_.table().find(normal_.data(), work_.products, furthest);
   }
   return std::max(height, furthest) * length;
-}
-
-double PlaneTops::height_of_left_out() const {
-  double height = -HUGE_VAL;
-  for (std::size_t row = space_.vertex_count(); row < space_.table().count(); ++row) {
-    const double* z = space_.row(static_cast<std::uint32_t>(row));
-    double dot = 0.0;
-    for (std::size_t k = 0; k < normal_.size(); ++k) dot += normal_[k] * z[k];
-    height = std::max(height, dot);
-  }
-  return height;
 }
 
 std::vector<std::uint32_t> DualFacets::facet_of_rows() const {

@@ -86,18 +86,16 @@ enum class PointsAbove {
 /// The largest a.y of any point of the space.
 class PlaneTops {
  public:
-  PlaneTops(const WidthSpace& space, PointsAbove above)
-      : space_(space), above_(above), normal_(space.rank()) {}
+  PlaneTops(const WidthSpace& space, PointsAbove above);
 
   /// Of a simplex' own plane. Cost  nothing where no points are above, else a product of a direction with all
   /// that may be.
   double of_simplex(const double* plane, double length);
 
  private:
-  double height_of_left_out() const;
-
   const WidthSpace& space_;
   PointsAbove above_;
+  SupportTable left_out_;  // where only these are looked at
   std::vector<double> normal_;
   PlaneFitWork work_;
 };

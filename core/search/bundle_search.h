@@ -9,13 +9,21 @@
 // the result is the same, digit for digit, as that of all products.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/search/highest_dots.h"
 #include "core/search/point_tree.h"
 
 namespace ndhull {
+
+/// The numbers 0, 1, ... of facets in the order of their places: of each that of a vertex in a tree of `places`
+/// points, best the first of all of its vertices. Facets with the same place keep their order. Places are
+/// doubles, so that they can stand where a number of each facet will be.
+/// Cost  O(facets + places), one thread.
+std::vector<std::uint32_t> order_by_place(std::span<const double> place_of_facet, std::size_t places);
 
 /// Largest dot product of each normal with any of the points.
 ///

@@ -107,6 +107,20 @@ class NeighbourOrder {
   std::vector<Place> places_;
 };
 
+/// Columns about as long as each other get the same size: points of a ball stay those of a ball.
+void make_alike(std::span<double> sizes) {
+  constexpr double kAlike = 0.5;
+  std::vector<std::size_t> columns(sizes.size());
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  std::sort(columns.begin(), columns.end(),
+            [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  double size = HUGE_VAL;
+  for (const std::size_t k : columns) {
+    if (!(sizes[k] >= kAlike * size)) size = sizes[k];
+    sizes[k] = size;
+  }
+}
+
 Enclosures make_enclosures(std::size_t dimension, std::size_t count) {
   constexpr float kNowhere = -0x1p100f;  // as a reach
   Enclosures level;
@@ -132,6 +146,12 @@ PointTree::PointTree(std::size_t dimension, std::span<const double> points) : di
   fill(points);
 }
 
+std::vector<std::uint32_t> PointTree::place_of_rows() const {
+  std::vector<std::uint32_t> place_of(order_.size());
+  for (std::uint32_t place = 0; place < place_of.size(); ++place) place_of[order_[place]] = place;
+  return place_of;
+}
+
 void PointTree::find_columns(std::span<const double> points) {
   column_sizes_.assign(dimension_, 1.0);
   middle_.assign(dimension_, 0.0);
@@ -143,10 +163,14 @@ void PointTree::find_columns(std::span<const double> points) {
     }
   }
   for (std::size_t k = 0; k < dimension_; ++k) {
-    const double largest = std::max(std::abs(low[k]), std::abs(high[k]));
-    if (largest > 0.0) column_sizes_[k] = std::ldexp(1.0, std::clamp(std::ilogb(largest) + 1, -1000, 1023));
-    middle_[k] = 0.5 * (low[k] / column_sizes_[k]) + 0.5 * (high[k] / column_sizes_[k]);
+    // Not less than a part of what doubles round off from far away.
+    constexpr double kFurthest = 16.0, kLeast = 0x1p-1000;
+    const double largest = std::max(std::abs(low[k]), std::abs(high[k])), half = 0.5 * high[k] - 0.5 * low[k];
+    if (largest > 0.0) column_sizes_[k] = std::max({half, largest / kFurthest, kLeast});
   }
+  make_alike(column_sizes_);
+  for (std::size_t k = 0; k < dimension_; ++k)
+    middle_[k] = 0.5 * (low[k] / column_sizes_[k]) + 0.5 * (high[k] / column_sizes_[k]);
 }
 
 void PointTree::fill(std::span<const double> points) {

@@ -42,7 +42,10 @@ class PointTree {
   std::size_t point_count() const { return order_.size(); }
   /// Place i of the tree holds this row of the points.
   const std::vector<std::uint32_t>& order() const { return order_; }
-  /// Enclosures are in coordinates x / size - middle of each column, which are in [-2, 2].
+  /// The place of each row.
+  std::vector<std::uint32_t> place_of_rows() const;
+  /// Enclosures are in coordinates x / size - middle of each column, which are in [-1, 1]; columns whose
+  /// extents are alike have the same size: a ball is one in these too, which is what cones are for.
   std::span<const double> column_sizes() const { return column_sizes_; }
   std::span<const double> middle() const { return middle_; }
   /// No point, and no corner of a box, is longer in those coordinates.
@@ -66,7 +69,7 @@ class PointTree {
 
   std::size_t dimension_;
   std::vector<std::uint32_t> order_;
-  std::vector<double> column_sizes_;  // powers of two, at least the largest |x_k|
+  std::vector<double> column_sizes_;
   std::vector<double> middle_;
   double reach_ = 0.0, point_reach_ = 0.0;
   std::vector<double> points_;      // in order

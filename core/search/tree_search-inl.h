@@ -41,7 +41,11 @@ class TreeSearch {
     // Roundings in single precision, each at most 2^-24 of the reach: of the direction, the axes, the sums
     // (of two products a coordinate for boxes) and what is made of them. The angles of the cones have room for
     // what a root makes of theirs.
-    margin_ = static_cast<float>(tree.reach() * static_cast<double>(2 * width_ + 12) * 0x1p-23);
+    // And in double precision, of products from which the middle's is taken off.
+    double far = tree.reach();
+    for (const double x : tree.middle()) far += std::abs(x);
+    margin_ = static_cast<float>(tree.reach() * static_cast<double>(2 * width_ + 12) * 0x1p-23 +
+                                 far * static_cast<double>(4 * width_ + 32) * 0x1p-52);
   }
 
   /// Turns to a direction along which a product is known to be attained.
