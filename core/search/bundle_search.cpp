@@ -21,6 +21,7 @@ namespace HWY_NAMESPACE {
 
 using CountTag = hn::RebindToUnsigned<FloatTag>;
 
+/// Facets in an order in which near normals come together, as many at a time as have few points near.
 template <std::size_t D>
 class BundleSearch {
  public:
