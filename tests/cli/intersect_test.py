@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -132,13 +133,22 @@ def rounded_cyclic_planes(folder):
     return folder / "planes.npy"
 
 
+def children_seconds():
+    """Processor time of all processes that were run and ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def test_a_limit_on_seconds_holds_where_many_vertices_merge():
     planes = rounded_cyclic_planes(fresh_folder("cyclic_limit"))
     limit = PATIENCE / 60
     words = ["intersect", planes, "--threads", 1, "--max-seconds", limit, "--report", "-", "--quiet"]
+    before = children_seconds()
     report = json.loads(run(*words).stdout)
     assert report["hull_status"] == "time_limit" and report["vertices"] > 16, report["hull_status"]
-    assert report["seconds"]["total"] < 1.8 * limit, report["seconds"]
+    assert report["seconds"]["total"] >= limit, report["seconds"]
+    # Of the one thread's own time: what a busy machine takes from it is not the program's.
+    assert children_seconds() - before < 1.8 * limit, report["seconds"]
 
 
 def test_ctrl_c_ends_where_many_vertices_merge():
