@@ -44,32 +44,52 @@ Hull HullBuilder::run(BegunHull* begun) {
   growth_.emplace(points_, frame_, factor, options_, start_, hull_);
   if (begun != nullptr) growth_->go_on_from(std::move(*begun));
   find_whole_facets();
-  if (frame_.rank == 1) {
-    complex() = make_segment(growth_->coordinates(), points_.rows);  // without growth
-    growth_->want_all();
-  } else if (is_exact) {
-    if (growth_->grow_exactly() || finds_whole_facets_late()) {
-      if (take_described()) return std::move(hull_);
-      if (earlier_.facets == 0) return again(options_, {.has_tried_exact = true});
-      hull_.status = HullStatus::kFacetLimit;  // an attempt in vain
-      return std::move(hull_);
-    }
-    if (growth_->is_too_rough()) return with_larger_shift();
-    if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
-  } else {
-    const bool has_room = approximate(factor);
-    if (growth_->is_found_otherwise())
-      return take_described()
-                 ? std::move(hull_)
-                 : again(options_, {.has_run_out = earlier_.has_run_out, .has_tried_exact = true});
-    if (wants_exact_first_) return exact_first(lengths);
-    if (growth_->is_too_rough()) return with_larger_shift();
-    if (!has_room) return again(options_, {.has_run_out = true, .has_tried_exact = earlier_.has_tried_exact});
-    if (star_hull_) {
-      adopt(std::move(*star_hull_));
-      return std::move(hull_);
-    }
+  if (std::optional<Hull> found = frame_.rank == 1 ? grow_segment()
+                                  : is_exact       ? grow_exactly()
+                                                   : grow_for(lengths, factor))
+    return std::move(*found);
+  return merged_hull(is_exact, lengths);
+}
+
+/// In one dimension there is nothing to grow.
+std::optional<Hull> HullBuilder::grow_segment() {
+  complex() = make_segment(growth_->coordinates(), points_.rows);
+  growth_->want_all();
+  return std::nullopt;
+}
+
+/// Something, here and below: the hull was found otherwise, or is what there is at a limit.
+std::optional<Hull> HullBuilder::grow_exactly() {
+  if (growth_->grow_exactly() || finds_whole_facets_late()) {
+    if (take_described()) return std::move(hull_);
+    if (earlier_.facets == 0) return again(options_, {.has_tried_exact = true});
+    hull_.status = HullStatus::kFacetLimit;  // an attempt in vain
+    return std::move(hull_);
   }
+  if (growth_->is_too_rough()) return with_larger_shift();
+  if (hull_.status != HullStatus::kComplete && !options_.wants_partial) return std::move(hull_);
+  return std::nullopt;
+}
+
+/// And chooses which simplices to merge. `factor`: gradient_factor.
+std::optional<Hull> HullBuilder::grow_for(const ResolvedAccuracy& lengths,
+                                          const std::vector<double>& factor) {
+  const bool has_room = approximate(factor);
+  if (growth_->is_found_otherwise()) {
+    if (take_described()) return std::move(hull_);
+    return again(options_, {.has_run_out = earlier_.has_run_out, .has_tried_exact = true});
+  }
+  if (wants_exact_first_) return exact_first(lengths);
+  if (growth_->is_too_rough()) return with_larger_shift();
+  if (!has_room) return again(options_, {.has_run_out = true, .has_tried_exact = earlier_.has_tried_exact});
+  if (!star_hull_) return std::nullopt;
+  adopt(std::move(*star_hull_));
+  return std::move(hull_);
+}
+
+/// Makes facets of what was grown; or takes the exact hull where that is as good.
+Hull HullBuilder::merged_hull(bool is_exact, const ResolvedAccuracy& lengths) {
+  const Accuracy& accuracy = options_.accuracy;
   // While coordinates and planes are those of growth.
   const double height = is_exact ? 0.0 : growth_->furthest_height();
   const std::size_t simplices = complex().row_count - growth_->work().free_count;
@@ -179,89 +199,6 @@ void HullBuilder::choose_for_volume(std::span<const double> determinants) {
   is_bounded_ = few->is_bounded;
   clusters_ = std::move(few->clusters);
   hull_.is_approximate = true;
-}
-
-/// From the beginning.
-Hull HullBuilder::again(const HullOptions& options, EarlierRun earlier) {
-  growth_.reset();
-  std::unique_ptr<WholeFacetSearch> search;
-  if (options.accuracy.is_exact()) search = std::move(whole_facets_);  // of the same frame
-  return HullBuilder(points_, options, start_, input_bytes_, earlier, std::move(search)).run();
-}
-
-/// The exact hull if it has no more facets than are asked for, or joined to that if they were found whole; else
-/// what was asked for.
-Hull HullBuilder::exact_first(const ResolvedAccuracy& lengths) {
-  constexpr std::uint64_t kMostSimplices = 1'000'000;  // a second or two
-  const bool may_join = options_.accuracy.effort == Effort::kQuick;
-  Hull exact = with(Accuracy(), lengths, kMostSimplices, may_join ? options_.accuracy.facets : 0);
-  const bool is_few = exact.facet_count() <= options_.accuracy.facets;
-  if (exact.status == HullStatus::kComplete && is_few) return exact;
-  return again(options_, {.has_run_out = earlier_.has_run_out, .has_tried_exact = true});
-}
-
-/// Less than what was asked for, which is what the report compares widths with.
-Hull HullBuilder::with(const Accuracy& accuracy, const ResolvedAccuracy& lengths, std::uint64_t max_facets,
-                       std::uint64_t joined_to) {
-  HullOptions options = options_;
-  options.accuracy = accuracy;
-  options.limits.max_facets = max_facets;
-  const bool limits_work = options.limits.max_facets != options_.limits.max_facets;
-  Hull hull = again(options, {.limits_work = limits_work, .facets = joined_to});
-  hull.chosen.width_asked = lengths.width_asked();
-  return hull;
-}
-
-/// So few of the exact hull's planes bound no region; others do.
-Hull HullBuilder::for_width_instead() {
-  HullOptions options = options_;
-  options.accuracy.objective = FacetObjective::kWidth;
-  return again(options, earlier_);
-}
-
-/// Has a limit ended growth for a width, and are there facets far wider than points are outside? Points are far
-/// above some simplices then, which slabs may hold. Where memory has ended growth, it all went into simplices.
-bool HullBuilder::is_wide_for(double height, const ResolvedAccuracy& lengths) const {
-  constexpr double kTimesAsWide = 2.0, kTimesAsLong = 4.0, kTimesAsWideInTime = 1.5, kShareLeft = 0.25;
-  if (lengths.width <= 0.0 || options_.accuracy.facets > 0 || height <= 0.0 || options_.stop.stop_requested())
-    return false;
-  const double width = hull_.max_facet_width, left = growth_->seconds_left();
-  if (hull_.status == HullStatus::kTimeLimit)
-    return width > std::max(lengths.width, kTimesAsWideInTime * height) &&
-           left > std::max(1.0, kShareLeft * options_.limits.max_seconds);
-  return hull_.status == HullStatus::kMemoryLimit && !hull_.is_approximate &&
-         width > std::max(lengths.width, kTimesAsWide * height) &&
-         left > kTimesAsLong * seconds_since(start_);
-}
-
-/// Slabs as narrow as there is memory or time for, in place of what the limit has left. Where points are far
-/// above simplices more facets are hardly narrower (wine, of 11-d points).
-Hull HullBuilder::narrow_instead(const ResolvedAccuracy& lengths) {
-  constexpr std::uint64_t kFacets = 500,
-                          kMostBeside = 2'000'000;  // simplices that another hull has room beside
-  const HullStatus status = hull_.status;
-  std::optional<Hull> before;
-  if (status == HullStatus::kTimeLimit && hull_.simplex_count() <= kMostBeside) before = std::move(hull_);
-  hull_ = Hull();
-  HullOptions options = options_;
-  options.accuracy.width = Length();
-  options.accuracy.facets = kFacets;
-  if (options.limits.max_seconds > 0.0) {  // the search has what is left for all of its time
-    options.limits.max_seconds = growth_->seconds_left();
-    start_ = Clock::now();
-  }
-  whole_facets_.reset();
-  Hull hull = again(options, {.has_tried_exact = true});
-  if (before && before->max_facet_width <= hull.max_facet_width) return std::move(*before);
-  hull.chosen.width_asked = lengths.width_asked();
-  if (hull.status == HullStatus::kComplete) hull.status = status;
-  return hull;
-}
-
-Hull HullBuilder::with_larger_shift() {
-  HullOptions options = options_;
-  options.shift *= 10.0;
-  return again(options, earlier_);
 }
 
 /// Whole facets are looked for while growth goes on, for an exact hull or a target that few of them may meet.

@@ -1,5 +1,5 @@
-// One run of the driver, for its own sources: hull_builder.cpp (the steps) and adopted_hull.cpp (hulls that
-// were found without growth to the end).
+// One run of the driver, for its own sources: hull_builder.cpp (the steps), adopted_hull.cpp (hulls that were
+// found without growth to the end) and runs_instead.cpp (other runs in its place).
 #pragma once
 
 #include <cstddef>
@@ -61,6 +61,11 @@ class HullBuilder {
   std::vector<bool> corners() { return find_corners(growth_->work()); }
 
   void describe_input();
+  std::optional<Hull> grow_segment();
+  std::optional<Hull> grow_exactly();
+  std::optional<Hull> grow_for(const ResolvedAccuracy& lengths, const std::vector<double>& factor);
+  Hull merged_hull(bool is_exact, const ResolvedAccuracy& lengths);
+
   void find_whole_facets();
   bool look_for_whole_facets(std::uint64_t work);
   bool finds_whole_facets_late();

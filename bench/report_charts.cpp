@@ -119,30 +119,32 @@ ReportSection tables_section(std::string title, std::vector<Table> tables) {
   return section;
 }
 
-}  // namespace
+ReportSection text_section(std::string title, std::string text) {
+  ReportSection section;
+  section.title = std::move(title);
+  section.text = std::move(text);
+  return section;
+}
 
-std::vector<ReportSection> report_sections(const std::vector<RunRecord>& all_records) {
-  std::vector<RunRecord> records;
-  std::copy_if(all_records.begin(), all_records.end(), std::back_inserter(records), is_of_hull);
-  const std::vector<std::vector<DimensionRun>> families = runs_by_family(records);
-  std::vector<ReportSection> sections;
+using Families = std::vector<std::vector<DimensionRun>>;
 
-  ReportSection& runtime = sections.emplace_back();
-  runtime.title = "Runtime against dimension";
-  runtime.text = "Median seconds of one thread; ndhull's include the certificate, Qhull's its outer planes.";
+ReportSection runtime_section(const Families& families) {
+  ReportSection runtime = text_section(
+      "Runtime against dimension",
+      "Median seconds of one thread; ndhull's include the certificate, Qhull's its outer planes.");
   add_charts(charts_over_dimension(
                  families, "seconds",
                  [](const DimensionRun& run) { return std::optional(run.repeats.median_seconds()); }),
              runtime);
   runtime.tables.push_back(ratio_table(families));
+  return runtime;
+}
 
-  sections.push_back(tables_section("Side by side", peers_tables(records)));
-
-  ReportSection& width = sections.emplace_back();
-  width.title = "Facet width against dimension";
-  width.text =
+ReportSection width_section(const Families& families) {
+  ReportSection width = text_section(
+      "Facet width against dimension",
       "The widest facet, outer plane minus inner plane. Of ndhull the number is certified; exact hulls are "
-      "at roundoff.";
+      "at roundoff.");
   add_charts(charts_over_dimension(families, "width of the widest facet [input units]",
                                    [](const DimensionRun& run) {
                                      const bool is_exact = run.key.options == "exact";
@@ -151,45 +153,70 @@ std::vector<ReportSection> report_sections(const std::vector<RunRecord>& all_rec
                                    }),
              width);
   add_charts(exact_width_charts(families), width);
+  return width;
+}
 
-  ReportSection& trade = sections.emplace_back();
-  trade.title = "Facets against width";
-  trade.text =
+ReportSection trade_section(const std::vector<RunRecord>& records) {
+  ReportSection trade = text_section(
+      "Facets against width",
       "What each engine gives: lower and further left is better. Targets: a width, or a number of facets, "
-      "was asked for.";
+      "was asked for.");
   add_charts(trade_charts(records), trade);
   trade.tables = approximate_tables(records);
+  return trade;
+}
 
-  ReportSection& memory = sections.emplace_back();
-  memory.title = "Memory";
-  memory.text =
-      "Peak memory beyond the points, for each simplex of exact hulls with 20,000 simplices or more.";
+ReportSection memory_section(const Families& families) {
+  ReportSection memory = text_section(
+      "Memory",
+      "Peak memory beyond the points, for each simplex of exact hulls with 20,000 simplices or more.");
   add_charts(charts_over_dimension(families, "memory of a simplex [bytes]", bytes_figure), memory);
+  return memory;
+}
 
-  ReportSection& phases = sections.emplace_back();
-  phases.title = "Phases";
-  phases.text = "Where ndhull's time goes. Rest: the frame, and starting the process' first call.";
+ReportSection phases_section(const Families& families, const std::vector<RunRecord>& records) {
+  ReportSection phases = text_section(
+      "Phases", "Where ndhull's time goes. Rest: the frame, and starting the process' first call.");
   add_charts(phase_charts(families), phases);
   phases.tables.push_back(phases_table(records));
+  return phases;
+}
 
+ReportSection joggle_section(const std::vector<RunRecord>& records) {
+  ReportSection joggle = text_section(
+      "Joggle",
+      "How often joggled input has a precision problem, beside the tables of Qhull's manual. ndhull counts "
+      "decisions about a point that is added; Qhull also nearly singular planes and facets that are not "
+      "clearly convex. A share of 0 is in the tables alone.");
+  add_charts(joggle_charts(records), joggle);
+  joggle.tables = joggle_tables(records);
+  return joggle;
+}
+
+std::vector<Table> all_runs(const std::vector<RunRecord>& records) {
+  if (records.empty()) return {};
+  return {measurement_table("Runs", records)};
+}
+
+}  // namespace
+
+std::vector<ReportSection> report_sections(const std::vector<RunRecord>& all_records) {
+  std::vector<RunRecord> records;
+  std::copy_if(all_records.begin(), all_records.end(), std::back_inserter(records), is_of_hull);
+  const Families families = runs_by_family(records);
+  std::vector<ReportSection> sections;
+  sections.push_back(runtime_section(families));
+  sections.push_back(tables_section("Side by side", peers_tables(records)));
+  sections.push_back(width_section(families));
+  sections.push_back(trade_section(records));
+  sections.push_back(memory_section(families));
+  sections.push_back(phases_section(families, records));
   sections.push_back(tables_section("Growth", scaling_tables(records)));
   sections.push_back(tables_section("Halfspaces", {halfspaces_table(all_records)}));
   sections.push_back(tables_section("Selections", selections_tables(all_records)));
   sections.push_back(tables_section("Largest facets", rays_tables(all_records)));
-
-  ReportSection& joggle = sections.emplace_back();
-  joggle.title = "Joggle";
-  joggle.text =
-      "How often joggled input has a precision problem, beside the tables of Qhull's manual. ndhull counts "
-      "decisions about a point that is added; Qhull also nearly singular planes and facets that are not "
-      "clearly convex. A share of 0 is in the tables alone.";
-  add_charts(joggle_charts(all_records), joggle);
-  joggle.tables = joggle_tables(all_records);
-
-  ReportSection& all = sections.emplace_back();
-  all.title = "All measurements";
-  if (!records.empty()) all.tables.push_back(measurement_table("Runs", records));
-
+  sections.push_back(joggle_section(all_records));
+  sections.push_back(tables_section("All measurements", all_runs(records)));
   for (ReportSection& section : sections) {
     std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
   }

@@ -72,6 +72,24 @@ void write_results(const LargestRequest& request, const LargestFacets& found, co
   }
 }
 
+/// What says how long all else took.
+void write_texts(const LargestRequest& request, const LargestFacets& found, const PointView& points,
+                 const std::vector<double>& largest, const LargestReportContext& context) {
+  if (!request.formats.empty()) {
+    OutputFile file("-");
+    write_largest_formats(file, request.formats, {found, points, largest, largest_summary(found, context)});
+    file.commit();
+  }
+  if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
+  if (!use_standard_output(outputs_of(request)) && !request.quiet)
+    write_text("-", largest_summary(found, context));
+}
+
+void warn_of_point_above(const PlaneCheck& verification) {
+  fmt::print(stderr, "ndhull: verify: point {} is {:.17g} above outer plane {}\n",
+             verification.worst_point.value, verification.worst_distance, verification.worst_plane);
+}
+
 }  // namespace
 
 int run_largest(const LargestRequest& request) {
@@ -111,8 +129,7 @@ int run_largest(const LargestRequest& request) {
     context.verification = &*verification;
     if (verification->above > 0) {
       progress.clear();
-      fmt::print(stderr, "ndhull: verify: point {} is {:.17g} above outer plane {}\n",
-                 verification->worst_point.value, verification->worst_distance, verification->worst_plane);
+      warn_of_point_above(*verification);
       return kVerificationFailedExitCode;
     }
   }
@@ -124,14 +141,7 @@ int run_largest(const LargestRequest& request) {
   context.total_seconds = seconds_since(start);
   context.peak_memory_bytes = peak_memory_bytes();
   progress.clear();
-  if (!request.formats.empty()) {
-    OutputFile file("-");
-    write_largest_formats(file, request.formats,
-                          {found, points.view(), largest, largest_summary(found, context)});
-    file.commit();
-  }
-  if (!request.report_path.empty()) write_text(request.report_path, largest_report_json(found, context));
-  if (!use_standard_output(outputs) && !request.quiet) write_text("-", largest_summary(found, context));
+  write_texts(request, found, points.view(), largest, context);
   return interrupt.requested() ? kInterruptedExitCode : 0;
 }
 

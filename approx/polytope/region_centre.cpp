@@ -1,6 +1,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "approx/geometry/even_normals.h"
 #include "approx/polytope/halfspace_region.h"
@@ -55,6 +56,36 @@ class SupportPrograms {
   std::vector<std::vector<double>> entries_;
 };
 
+/// The mean of the points that are furthest along rank directions and their opposites, which span all that the
+/// region does. Something: along it there is no furthest.
+std::optional<VectorXd> find_middle(SupportPrograms& programs, Index rank, VectorXd& middle) {
+  MatrixXd span(rank, 0);
+  VectorXd first;
+  middle = VectorXd::Zero(rank);
+  for (Index step = 0; step < rank; ++step) {
+    // The unit vector with most outside the span so far, less its part inside.
+    const MatrixXd outside = MatrixXd::Identity(rank, rank) - span * span.transpose();
+    Index longest = 0;
+    outside.colwise().norm().maxCoeff(&longest);
+    VectorXd direction = outside.col(longest).normalized();
+    VectorXd ends[2];
+    for (VectorXd& end : ends) {
+      if (!programs.furthest(direction, end)) return end;
+      middle += end;
+      direction = -direction;
+    }
+    if (step == 0) first = ends[0];
+    VectorXd edge = std::abs(direction.dot(ends[0] - first)) > std::abs(direction.dot(ends[1] - first))
+                        ? VectorXd(ends[0] - first)
+                        : VectorXd(ends[1] - first);
+    for (int pass = 0; pass < 2; ++pass) edge -= span * (span.transpose() * edge);
+    span.conservativeResize(rank, step + 1);
+    span.col(step) = edge.normalized();
+  }
+  middle /= static_cast<double>(2 * rank);
+  return std::nullopt;
+}
+
 }  // namespace
 
 RegionCentre centre_region(const HalfspaceSet& halfspaces, const HalfspaceRegion& region) {
@@ -84,33 +115,9 @@ RegionCentre centre_region(const HalfspaceSet& halfspaces, const HalfspaceRegion
   // n.(map w) = (n' . w) |n map|
   for (Index row = 0; row < heights.size(); ++row) heights[row] /= (normals.row(row) * even.map).norm();
   SupportPrograms programs(even.rows, heights);
-  MatrixXd span(rank, 0);
-  VectorXd sum = VectorXd::Zero(rank), first;
-  std::size_t count = 0;
-  for (Index step = 0; step < rank; ++step) {
-    // The unit vector with most outside the span so far, less its part inside.
-    const MatrixXd outside = MatrixXd::Identity(rank, rank) - span * span.transpose();
-    Index longest = 0;
-    outside.colwise().norm().maxCoeff(&longest);
-    VectorXd direction = outside.col(longest).normalized();
-    VectorXd ends[2];
-    for (VectorXd& end : ends) {
-      if (!programs.furthest(direction, end)) return open(even.map * end);
-      sum += end;
-      ++count;
-      direction = -direction;
-    }
-    if (step == 0) first = ends[0];
-    VectorXd edge = std::abs(direction.dot(ends[0] - first)) > std::abs(direction.dot(ends[1] - first))
-                        ? VectorXd(ends[0] - first)
-                        : VectorXd(ends[1] - first);
-    for (int pass = 0; pass < 2; ++pass) edge -= span * (span.transpose() * edge);
-    span.conservativeResize(rank, step + 1);
-    span.col(step) = edge.normalized();
-  }
-  const VectorXd point =
-      as_vector(region.point) +
-      region.directions * (even.map * (sum / static_cast<double>(std::max<std::size_t>(count, 1))));
+  VectorXd middle;
+  if (const std::optional<VectorXd> ray = find_middle(programs, rank, middle)) return open(even.map * *ray);
+  const VectorXd point = as_vector(region.point) + region.directions * (even.map * middle);
   centre.point.assign(point.data(), point.data() + point.size());
   return centre;
 }

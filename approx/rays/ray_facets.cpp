@@ -34,8 +34,33 @@ RowMatrix rows_of(const FramePoints& points, const std::vector<std::uint32_t>& i
 
 /// The points of a facet in coordinates within its plane, and their hull.
 struct FacetGeometry::InPlane {
-  std::vector<double> coordinates;  // points x (rank - 1)
+  std::vector<double> coordinates;  // points x hull.dimension
   Hull hull;
+
+  Eigen::Map<const Eigen::RowVectorXd> point(PointId id) const {
+    return {coordinates.data() + id.value * hull.dimension, static_cast<Index>(hull.dimension)};
+  }
+  /// The vertices of the largest simplex of a ridge.
+  std::span<const PointId> largest_simplex(FacetId ridge) const {
+    std::span<const PointId> found;
+    double largest = -1.0;
+    for (const SimplexId simplex : hull.simplices_of(ridge)) {
+      const std::span<const PointId> vertices = hull.simplices().vertices(simplex);
+      RowMatrix edges(static_cast<Index>(vertices.size()) - 1, static_cast<Index>(hull.dimension));
+      for (std::size_t k = 1; k < vertices.size(); ++k)
+        edges.row(static_cast<Index>(k) - 1) = point(vertices[k]) - point(vertices[0]);
+      const double size = SquareFactors(edges * edges.transpose()).determinant();
+      if (size <= largest) continue;
+      largest = size;
+      found = vertices;
+    }
+    return found;
+  }
+  PointId furthest_below(FacetId ridge) const {
+    const Eigen::Map<const Eigen::VectorXd> normal(hull.normal(ridge).data(),
+                                                   static_cast<Index>(hull.dimension));
+    return *std::ranges::min_element(hull.vertices, {}, [&](PointId id) { return point(id).dot(normal); });
+  }
 };
 
 FacetGeometry::FacetGeometry(const RayShooter& shooter, double max_seconds)
@@ -128,9 +153,10 @@ std::optional<std::vector<WalkTask>> FacetGeometry::ridge_walks(const RayFacet& 
   const InPlane within = project(facet);
   const Hull& hull = within.hull;
   if (hull.status == HullStatus::kTimeLimit) return std::nullopt;
-  if (hull.rank + 1 < rank || hull.rank < 2) {
+  if (hull.rank + 1 < rank) return walks;
+  if (hull.rank < 2) {
     // A segment: each end is a ridge.
-    if (hull.rank + 1 < rank || hull.vertices.size() != 2) return walks;
+    if (hull.vertices.size() != 2) return walks;
     const std::vector<std::uint32_t> ends = {facet.points[hull.vertices[0].value],
                                              facet.points[hull.vertices[1].value]};
     walks.push_back({.direction = {}, .basis = ends, .place = 0});
@@ -143,38 +169,9 @@ std::optional<std::vector<WalkTask>> FacetGeometry::ridge_walks(const RayFacet& 
                    [&hull](FacetId a, FacetId b) { return hull.area_of(a) > hull.area_of(b); });
   if (ridges.size() > kMaxRidges) ridges.resize(kMaxRidges);
   for (const FacetId ridge : ridges) {
-    WalkTask task;
-    // The largest simplex of the ridge, and the point furthest from it.
-    double largest = -1.0;
-    for (const SimplexId simplex : hull.simplices_of(ridge)) {
-      RowMatrix edges(static_cast<Index>(rank) - 2, static_cast<Index>(rank) - 1);
-      const auto vertices = hull.simplices().vertices(simplex);
-      const auto coordinates_of = [&](PointId id) {
-        return Eigen::Map<const Eigen::RowVectorXd>(within.coordinates.data() + id.value * (rank - 1),
-                                                    static_cast<Index>(rank) - 1);
-      };
-      for (std::size_t k = 1; k < vertices.size(); ++k) {
-        edges.row(static_cast<Index>(k) - 1) = coordinates_of(vertices[k]) - coordinates_of(vertices[0]);
-      }
-      const double size = SquareFactors(edges * edges.transpose()).determinant();
-      if (size <= largest) continue;
-      largest = size;
-      task.basis.clear();
-      for (const PointId id : vertices) task.basis.push_back(facet.points[id.value]);
-    }
-    double lowest = HUGE_VAL;
-    std::uint32_t lowest_id = 0;
-    for (const PointId id : hull.vertices) {
-      double distance = 0.0;
-      for (std::size_t k = 0; k + 1 < rank; ++k) {
-        distance += hull.normal(ridge)[k] * within.coordinates[id.value * (rank - 1) + k];
-      }
-      if (distance >= lowest) continue;
-      lowest = distance;
-      lowest_id = facet.points[id.value];
-    }
-    task.basis.push_back(lowest_id);
-    task.place = rank - 1;
+    WalkTask task{.direction = {}, .basis = {}, .place = rank - 1};
+    for (const PointId id : within.largest_simplex(ridge)) task.basis.push_back(facet.points[id.value]);
+    task.basis.push_back(facet.points[within.furthest_below(ridge).value]);
     walks.push_back(std::move(task));
   }
   return walks;

@@ -5,10 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "approx/rays/frame_centre.h"
 #include "approx/rays/near_copies.h"
-#include "core/linear/dense_solve.h"
 #include "core/machine/blocks.h"
-#include "core/portable_random.h"
 
 namespace ndhull {
 namespace {
@@ -27,9 +26,6 @@ constexpr double kAbove = 1e-12;
 constexpr double kCoplanarToAbove = 4.0;
 /// The walk is given up after so many pivots a dimension. Walks take up to five.
 constexpr std::size_t kMaxPivotsPerDimension = 100;
-/// Directions whose furthest points the centre is the mean of, with their opposites.
-constexpr std::size_t kCentreDirections = 128;
-constexpr std::uint64_t kCentreSeed = 1;
 /// How far the centre is moved from the simplex' mean to that of those points; the rest keeps it inside.
 constexpr double kCentreShare = 0.875;
 
@@ -97,61 +93,29 @@ std::vector<std::uint32_t> RayShooter::find_centre(const PointView& points) {
   const std::size_t rank = frame_.rank;
   coordinates_.resize((point_count_ + 2 * rank) * rank);
   map_points(points, frame_, coordinates_.data());
-  Eigen::MatrixXd simplex(static_cast<Index>(rank), static_cast<Index>(rank + 1));
   const FramePoints in_frame{coordinates_.data(), rank, 0.0};
-  for (std::size_t k = 0; k <= rank; ++k) {
-    simplex.col(static_cast<Index>(k)) = in_frame.point(frame_.simplex[k].value);
-  }
-  double longest = 0.0;  // dual vertex of the simplex: one over the distance of the nearest facet from 0
-  for (Index omitted = 0; omitted <= simplex.rows(); ++omitted) {
-    Eigen::MatrixXd facet(simplex.rows(), simplex.rows());
-    for (Index row = 0, from = 0; from <= simplex.rows(); ++from) {
-      if (from != omitted) facet.row(row++) = simplex.col(from).transpose();
-    }
-    const Eigen::VectorXd plane = SquareFactors(facet).solve(Eigen::VectorXd::Ones(simplex.rows()));
-    longest = std::max(longest, plane.norm());
-  }
-  inner_radius_ = 0.5 * (1.0 - kCentreShare) / longest;
-
-  ScanTiles tiles(rank);
-  tiles.reserve(point_count_);
-  for (std::uint32_t id = 0; id < point_count_; ++id) tiles.append(in_frame.row(id), id);
-  PortableRandom random(kCentreSeed);
-  std::vector<float> directions;
-  for (std::size_t one = 0; one < kCentreDirections; ++one) {
-    std::vector<double> direction(rank);
-    double length_sq = 0.0;
-    for (double& x : direction) {
-      x = random.normal();
-      length_sq += x * x;
-    }
-    for (const double sign : {1.0, -1.0}) {
-      for (const double x : direction)
-        directions.push_back(static_cast<float>(sign * x / std::sqrt(length_sq)));
-    }
-  }
-  std::vector<DirectionQuery> queries(2 * kCentreDirections);
-  scan_directions_in_parallel(tiles, directions, queries);
-  std::vector<std::uint32_t> furthest;
-  for (const PointId id : frame_.simplex) furthest.push_back(id.value);
+  inner_radius_ = 0.5 * (1.0 - kCentreShare) * inner_radius(in_frame, frame_.simplex);
+  const std::vector<std::uint32_t> far_out = furthest_along_directions(in_frame, point_count_);
   std::vector<double> mean(frame_.dimension, 0.0);
-  const double weight = kCentreShare / static_cast<double>(queries.size());
+  const double weight = kCentreShare / static_cast<double>(far_out.size());
   for (std::size_t k = 0; k < frame_.dimension; ++k) mean[k] = (1.0 - kCentreShare) * frame_.centre[k];
-  for (const DirectionQuery& query : queries) {
-    furthest.push_back(query.furthest);
-    for (std::size_t k = 0; k < frame_.dimension; ++k) mean[k] += weight * points.at(query.furthest, k);
-  }
+  for (const std::uint32_t id : far_out)
+    for (std::size_t k = 0; k < frame_.dimension; ++k) mean[k] += weight * points.at(id, k);
   frame_.centre = mean;
   map_points(points, frame_, coordinates_.data());
   for (std::size_t k = 0; k < rank; ++k) {  // two points inside the hull on each axis: the first basis
     coordinates_[(point_count_ + k) * rank + k] = inner_radius_;
     coordinates_[(point_count_ + rank + k) * rank + k] = -inner_radius_;
   }
+  std::vector<std::uint32_t> first;
   if (point_count_ <= kSmallSet) {
-    furthest.resize(point_count_);
-    std::iota(furthest.begin(), furthest.end(), 0);
+    first.resize(point_count_);
+    std::iota(first.begin(), first.end(), 0);
+  } else {
+    for (const PointId id : frame_.simplex) first.push_back(id.value);
+    first.insert(first.end(), far_out.begin(), far_out.end());
   }
-  return furthest;
+  return first;
 }
 
 /// Longest points first; of equal points only the first, so that points on a plane are different ones.
@@ -268,20 +232,13 @@ void RayShooter::decide(Walker& walker) const {
   walker.state = Walker::State::kOnCore;
   const bool tried_to_separate = std::exchange(walker.tries_to_separate, false);
   const FramePoints all = points();
-  const auto take_in = [&](std::uint32_t id) {
-    walker.additions.push_back(id);
-    if (walker.walk.pivot(all, id) && walker.walk.pivot_count() <= kMaxPivotsPerDimension * frame_.rank) {
-      ends_inside(walker);
-      return;
-    }
-    walker.state = Walker::State::kDone;
-  };
-  if (walker.query.is_refuted) return take_in(walker.query.furthest);
-  WalkResult& result = walker.result;
+  if (walker.query.is_refuted) return take_in(walker.query.furthest, walker);
+  const Eigen::VectorXd& plane = walker.walk.plane();
   if (tried_to_separate) {
     walker.state = Walker::State::kDone;
+    WalkResult& result = walker.result;
     result.end = WalkEnd::kOutside;
-    result.plane.assign(walker.walk.plane().data(), walker.walk.plane().data() + frame_.rank);
+    result.plane.assign(plane.data(), plane.data() + plane.size());
     result.gauge = walker.walk.gauge();
     // Products are below the query's threshold by more than half of what it leaves to the gauge.
     result.gap = 0.5 * all_.product_error() * walker.direction_length;
@@ -292,7 +249,6 @@ void RayShooter::decide(Walker& walker) const {
     walker.state = Walker::State::kDone;
     return;
   }
-  const Eigen::VectorXd& plane = walker.walk.plane();
   const double above = kAbove + unit_roundoff_bound(all, plane.norm());
   double worst = above;
   std::uint32_t worst_id = DirectionQuery::kNoPoint;
@@ -302,7 +258,24 @@ void RayShooter::decide(Walker& walker) const {
     worst = gauge;
     worst_id = id;
   }
-  if (worst_id != DirectionQuery::kNoPoint) return take_in(worst_id);
+  if (worst_id != DirectionQuery::kNoPoint) return take_in(worst_id, walker);
+  end_at_facet(above, walker);
+}
+
+/// A point that is above the plane.
+void RayShooter::take_in(std::uint32_t id, Walker& walker) const {
+  walker.additions.push_back(id);
+  if (walker.walk.pivot(points(), id) && walker.walk.pivot_count() <= kMaxPivotsPerDimension * frame_.rank) {
+    ends_inside(walker);
+  } else {
+    walker.state = Walker::State::kDone;
+  }
+}
+
+/// No point is above the plane by more than `above`, a gauge.
+void RayShooter::end_at_facet(double above, Walker& walker) const {
+  const Eigen::VectorXd& plane = walker.walk.plane();
+  WalkResult& result = walker.result;
   walker.state = Walker::State::kDone;
   result.gauge = walker.walk.gauge();
   result.plane.assign(plane.data(), plane.data() + plane.size());
@@ -316,7 +289,7 @@ void RayShooter::decide(Walker& walker) const {
   result.end = WalkEnd::kFacet;
   result.coplanar = kCoplanarToAbove * above;
   for (const std::uint32_t id : walker.query.near) {
-    if (plane.dot(all.point(id)) - 1.0 >= -result.coplanar) result.on_plane.push_back(id);
+    if (plane.dot(points().point(id)) - 1.0 >= -result.coplanar) result.on_plane.push_back(id);
   }
   std::sort(result.on_plane.begin(), result.on_plane.end());
   result.basis = walker.walk.basis();

@@ -110,6 +110,8 @@ class RayShooter {
   bool ends_inside(Walker& walker) const;
   bool separates(Walker& walker, const DirectionQuery& answer) const;
   void decide(Walker& walker) const;
+  void take_in(std::uint32_t id, Walker& walker) const;
+  void end_at_facet(double above, Walker& walker) const;
 
   Frame frame_;
   std::size_t point_count_ = 0;

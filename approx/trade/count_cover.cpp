@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "approx/trade/count_approximation.h"
 #include "approx/trade/count_limits.h"
@@ -21,6 +22,67 @@ constexpr double kFar = 0.4;
 constexpr double kTellsPower = 0.03;
 /// Part of the width that points left out may be outside for disjoint slabs.
 constexpr double kFarAbove = 0.65;
+
+/// Which width to try next for a number of facets. The number falls like a power of the width, about the
+/// (rank-1)/2-th where the hull is round; what it was last is remembered. Where it falls off a cliff (answers
+/// 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more than a hull has to have says
+/// nothing about the width: steps are long then.
+class WidthSteps {
+ public:
+  struct Trial {
+    double log_width = 0.0, log_count = 0.0;
+    bool is_made = true;
+  };
+
+  /// `slack`: so much less than the number is as good [logarithm].
+  WidthSteps(double count, double slack, double power_of_ball, double power)
+      : wanted_(std::log(count)), slack_(slack), power_of_ball_(power_of_ball), power_(power) {}
+
+  void note(const Trial& trial, bool are_few) {
+    if (last_.is_made && std::abs(trial.log_width - last_.log_width) > kTellsPower &&
+        trial.log_count != last_.log_count) {
+      const double power = (last_.log_count - trial.log_count) / (trial.log_width - last_.log_width);
+      power_ = std::clamp(power, 0.5 * power_of_ball_, 2.0 * power_of_ball_);
+    }
+    last_ = trial;
+    if (are_few) {
+      if (!few_.is_made || trial.log_width < few_.log_width) few_ = trial;
+    } else {
+      if (!many_.is_made || trial.log_width > many_.log_width) many_ = trial;
+    }
+  }
+
+  double power() const { return power_; }
+  /// How far the narrowest that needs no more facets than are wanted is below the number [logarithm].
+  double short_of() const { return wanted_ - few_.log_count; }
+
+  /// To the next width; false: what was tried is as near as it gets. `are_fewest`: of the best so far.
+  bool step(bool are_fewest, double log_flat, double& log_width) const {
+    constexpr double kStepOfFewest = 0.3;
+    const double least_step = slack_ / power_of_ball_;
+    if (few_.is_made && many_.is_made) {
+      const double between = few_.log_width - many_.log_width;
+      const double fewer = std::max(1e-9, many_.log_count - few_.log_count);
+      const bool is_cliff = fewer > std::max(1.0, 3.0 * power_of_ball_ * between);
+      if (between < (is_cliff ? 0.01 : 0.004)) return false;
+      const double part = is_cliff ? 0.5 : (many_.log_count - wanted_ + 0.5 * slack_) / fewer;
+      log_width = many_.log_width + std::clamp(part, 0.08, 0.92) * between;
+    } else if (few_.is_made) {
+      const double one = (short_of() > kFar ? 1.2 * short_of() : short_of() - 0.5 * slack_) / power_;
+      log_width -= std::max(one, are_fewest ? kStepOfFewest : least_step);
+      if (few_.log_width > log_flat) log_width = std::max(log_width, log_flat);
+    } else {
+      const double beyond = many_.log_count - wanted_;
+      log_width += std::max(least_step, (beyond > kFar ? 1.2 * beyond : beyond + 0.5 * slack_) / power_);
+    }
+    return true;
+  }
+
+ private:
+  double wanted_, slack_, power_of_ball_, power_;
+  // Nearest with at most, with more than the count; the last one.
+  Trial few_{.is_made = false}, many_{.is_made = false}, last_{.is_made = false};
+};
 
 }  // namespace
 
@@ -63,66 +125,32 @@ CountApproximation::TriedWidth CountApproximation::try_width(const CoverEffort& 
 }
 
 /// The covering by the narrowest slabs found that needs at most that number of facets, and hardly less;
-/// chosen.slab_width is theirs. No planes: there is none. The number falls like a power of the width, about
-/// the (rank-1)/2-th where the hull is round; what it was last is remembered. Where it falls off a cliff
-/// (answers 1 to 5: 346 below width 1, 38 above) steps are halved. What is hardly more than a hull has to have
-/// says nothing about the width: steps are long then.
+/// chosen.slab_width is theirs. No planes: there is none.
 Covering CountApproximation::cover_count(const CoverEffort& effort, double start_width, double slack) {
-  constexpr double kStepOfFewest = 0.3;
   const std::size_t fewest = space_->rank() + space_->rank() / 2 + 1;
   std::optional<SlabCover> overlapping;
   const double power_of_ball = 0.5 * (static_cast<double>(space_->rank()) - 1.0);
-  const double least_step = slack / power_of_ball;
   if (search_.power == 0.0) search_.power = power_of_ball;
-  const double wanted = std::log(static_cast<double>(count_));
-  struct Trial {
-    double log_width, log_count;
-  };
-  std::optional<Trial> few, many, last;  // few, many: nearest with at most, with more than the count
+  WidthSteps steps(static_cast<double>(count_), slack, power_of_ball, search_.power);
   Covering best;
   double best_width = 0.0, log_width = std::log(start_width);
-  bool are_fewest = false;
   for (int trial = 0; trial < kMostCoverings; ++trial) {
     const bool is_enough = growth_.is_late() || search_.covered > most_covered(count_);
     if (is_enough && (!best.planes.empty() || trial >= kMostCoveringsLate)) break;
     const double width = std::exp(log_width);
     TriedWidth found = try_width(effort, width, overlapping);
-    const double log_count = std::log(static_cast<double>(found.facets));
-    if (last && std::abs(log_width - last->log_width) > kTellsPower && log_count != last->log_count) {
-      const double power = (last->log_count - log_count) / (log_width - last->log_width);
-      search_.power = std::clamp(power, 0.5 * power_of_ball, 2.0 * power_of_ball);
+    const bool are_few = found.facets <= count_;
+    steps.note({log_width, std::log(static_cast<double>(found.facets))}, are_few);
+    search_.power = steps.power();
+    const bool is_hull = are_few && keeps_hull(found.covering);
+    if (is_hull) consider(found.covering, width);
+    if (is_hull && (best.planes.empty() || width < best_width)) {
+      best = std::move(found.covering);
+      best_width = width;
     }
-    last = Trial{log_width, log_count};
-    if (found.facets > count_) {
-      if (!many || log_width > many->log_width) many = Trial{log_width, log_count};
-    } else {
-      if (!few || log_width < few->log_width) few = Trial{log_width, log_count};
-      const bool is_hull = keeps_hull(found.covering);
-      if (is_hull) consider(found.covering, width);
-      if (is_hull && (best.planes.empty() || width < best_width)) {
-        best = std::move(found.covering);
-        best_width = width;
-      }
-      are_fewest = best.planes.size() <= fewest && fewest < count_;
-      if (is_hull && (width <= flat() || (!are_fewest && wanted - few->log_count < slack))) break;
-    }
-    if (few && many) {
-      const double between = few->log_width - many->log_width;
-      const double fewer = std::max(1e-9, many->log_count - few->log_count);
-      const bool is_cliff = fewer > std::max(1.0, 3.0 * power_of_ball * between);
-      if (between < (is_cliff ? 0.01 : 0.004)) break;
-      const double part = is_cliff ? 0.5 : (many->log_count - wanted + 0.5 * slack) / fewer;
-      log_width = many->log_width + std::clamp(part, 0.08, 0.92) * between;
-    } else if (few) {
-      const double short_of = wanted - few->log_count;
-      const double step = (short_of > kFar ? 1.2 * short_of : short_of - 0.5 * slack) / search_.power;
-      log_width -= std::max(step, are_fewest ? kStepOfFewest : least_step);
-      if (few->log_width > std::log(flat())) log_width = std::max(log_width, std::log(flat()));
-    } else {
-      const double beyond = many->log_count - wanted;
-      log_width +=
-          std::max(least_step, (beyond > kFar ? 1.2 * beyond : beyond + 0.5 * slack) / search_.power);
-    }
+    const bool are_fewest = best.planes.size() <= fewest && fewest < count_;
+    if (is_hull && (width <= flat() || (!are_fewest && steps.short_of() < slack))) break;
+    if (!steps.step(are_fewest, std::log(flat()), log_width)) break;
   }
   hull_.chosen.slab_width = best_width;
   return best;

@@ -87,6 +87,38 @@ void warn_of_open_planes(const QhullSelection& selection, const Hull& hull) {
              selection.facets.size(), hull.facet_count(), fmt::join(selection.open_direction, ", "));
 }
 
+void warn_of_limits(const Hull& hull, const QhullCommand& command) {
+  if (hull.rank < hull.dimension && !command.hides_warnings) warn_of_flat_volume(hull.rank, hull.dimension);
+  if (hull.status != HullStatus::kMemoryLimit) return;
+  fmt::print(stderr,
+             "ndhull: warning: the machine's memory ended growth; the facets are those of {} vertices, and "
+             "their outer planes hold for all points\n",
+             hull.vertices.size());
+}
+
+/// Of the points as they were: planes of joggled ones are widened, and hold for them. If not, says why.
+bool is_verified(const PointView& points, const Hull& hull, unsigned threads) {
+  tbb::task_arena arena = arena_of(threads);
+  const Verification verification =
+      arena.execute([&] { return verify_hull(points, hull, VerifyMode::kFloating); });
+  if (!verification.passed()) fmt::print(stderr, "ndhull: verify: {}\n", verification.first_failure());
+  return verification.passed();
+}
+
+/// Points that are no vertices, to the facets that are printed and to others.
+void attach(const PointView& points, const QhullCommand& command, unsigned threads, QhullPrint& print) {
+  print.attached = attach_points(print.hull, points,
+                                 {.coplanar = command.keep_coplanar,
+                                  .interior = command.keep_interior,
+                                  .depth = command.coplanar_depth.value_or(0.0)},
+                                 threads);
+  const auto elsewhere = std::stable_partition(
+      print.attached.begin(), print.attached.end(),
+      [&print](const AttachedPoint& point) { return print.label[point.facet.value] >= 0; });
+  print.attached_elsewhere.assign(elsewhere, print.attached.end());
+  print.attached.erase(elsewhere, print.attached.end());
+}
+
 void print_all(const QhullPrint& print, const QhullCommand& command, const QhullRunFacts& facts) {
   // Where nothing else is asked for, the summary is the result.
   const bool is_result = command.formats.empty() && !command.has_summary;
@@ -151,25 +183,9 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   if (command.progress_facets > 0) options.progress = FacetCounter(command.progress_facets);
   interrupt.arm();
   const Result result = compute(points, command, options);
-  if (result.hull.rank < result.hull.dimension && !command.hides_warnings)
-    warn_of_flat_volume(result.hull.rank, result.hull.dimension);
-  if (result.hull.status == HullStatus::kMemoryLimit) {
-    fmt::print(stderr,
-               "ndhull: warning: the machine's memory ended growth; the facets are those of {} vertices, and "
-               "their outer planes hold for all points\n",
-               result.hull.vertices.size());
-  }
+  warn_of_limits(result.hull, command);
+  if (command.verify && !is_verified(points, result.hull, threads)) return kVerificationFailedExitCode;
 
-  if (command.verify) {
-    // Joggled planes are widened: they hold for the points as they were.
-    tbb::task_arena arena = arena_of(threads);
-    const Verification verification =
-        arena.execute([&] { return verify_hull(points, result.hull, VerifyMode::kFloating); });
-    if (!verification.passed()) {
-      fmt::print(stderr, "ndhull: verify: {}\n", verification.first_failure());
-      return kVerificationFailedExitCode;
-    }
-  }
   const PointView printed = result.joggled.empty()
                                 ? points
                                 : PointView::row_major(result.joggled.data(), points.rows, points.dimension);
@@ -182,16 +198,7 @@ int run_qhull(const QhullCommand& command, unsigned threads) {
   std::optional<std::span<const FacetId>> facets;
   if (selection) facets = selection->facets;
   QhullPrint print(result.hull, printed, facets);
-  print.attached = attach_points(result.hull, printed,
-                                 {.coplanar = command.keep_coplanar,
-                                  .interior = command.keep_interior,
-                                  .depth = command.coplanar_depth.value_or(0.0)},
-                                 threads);
-  const auto elsewhere = std::stable_partition(
-      print.attached.begin(), print.attached.end(),
-      [&print](const AttachedPoint& point) { return print.label[point.facet.value] >= 0; });
-  print.attached_elsewhere.assign(elsewhere, print.attached.end());
-  print.attached.erase(elsewhere, print.attached.end());
+  attach(printed, command, threads, print);
   print.invocation = invocation;
   print.writes_cdd = command.writes_cdd;
   print_all(print, command, result.facts);
