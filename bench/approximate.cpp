@@ -117,7 +117,7 @@ class Bench {
     for (const RunRecord& record : earlier_) {
       if (record.key.engine != "qhull" || record.group != approximate.name()) continue;
       add_repeat(record, repeats);
-      keep(record);
+      if (RunRecord kept = record; !was_done(kept)) keep(kept);
     }
     return repeats;
   }
@@ -157,7 +157,7 @@ class Bench {
     options.accuracy = set.accuracy;
     options.unit_cube = approximate.input.unit_cube;
     options.threads = 1;
-    options.limits.max_memory_bytes = max_memory_bytes_;
+    options.limits.machine_memory_bytes = max_memory_bytes_;  // as the program: no limit of the user's
     set_result(run_in_child([&] { return nlohmann::json(run_ndhull(input, options)); }, options_.max_seconds),
                record);
     keep(record);

@@ -146,7 +146,7 @@ class Measurement {
     options.accuracy = run.options.accuracy;
     options.unit_cube = unit_cube;
     options.threads = run.threads;
-    options.limits.max_memory_bytes = limits_.max_memory_bytes;
+    options.limits.machine_memory_bytes = limits_.max_memory_bytes;
     return run_in_child([&] { return nlohmann::json(run_ndhull(input_, options, true)); },
                         limits_.max_seconds);
   }

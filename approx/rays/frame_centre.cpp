@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "approx/rays/direction_scan.h"
-#include "core/linear/dense_solve.h"
+#include "core/linear/simplex_planes.h"
 #include "core/portable_random.h"
 
 namespace ndhull {
 namespace {
-
-using Index = Eigen::Index;
 
 constexpr std::size_t kDirections = 128;
 constexpr std::uint64_t kSeed = 1;
@@ -18,16 +16,9 @@ constexpr std::uint64_t kSeed = 1;
 }  // namespace
 
 double inner_radius(const FramePoints& points, std::span<const PointId> simplex) {
-  const auto rank = static_cast<Index>(points.rank);
   double longest = 0.0;  // dual vertex of the simplex: one over the distance of the nearest facet from 0
-  for (std::size_t omitted = 0; omitted < simplex.size(); ++omitted) {
-    Eigen::MatrixXd facet(rank, rank);
-    Index row = 0;
-    for (std::size_t k = 0; k < simplex.size(); ++k)
-      if (k != omitted) facet.row(row++) = points.point(simplex[k].value).transpose();
-    const Eigen::VectorXd plane = SquareFactors(facet).solve(Eigen::VectorXd::Ones(rank));
+  for (const Eigen::VectorXd& plane : simplex_planes(points.coordinates, points.rank, simplex))
     longest = std::max(longest, plane.norm());
-  }
   return 1.0 / longest;
 }
 

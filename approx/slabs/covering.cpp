@@ -5,7 +5,8 @@
 #include <numeric>
 
 #include "core/ids.h"
-#include "core/linear/dense_solve.h"
+#include "core/linear/dense_views.h"
+#include "core/linear/simplex_planes.h"
 #include "core/machine/prefetch.h"
 
 namespace ndhull {
@@ -14,18 +15,10 @@ namespace {
 /// Outward unit normals of the frame's first simplex.
 std::vector<std::vector<double>> first_simplex_normals(const WidthSpace& space, const Frame& frame,
                                                        const double* coordinates) {
-  const auto rank = static_cast<Eigen::Index>(space.rank());
   std::vector<std::vector<double>> normals;
-  for (std::size_t omitted = 0; omitted < frame.simplex.size(); ++omitted) {
-    Eigen::MatrixXd rows(rank, rank);
-    for (std::size_t from = 0, row = 0; from < frame.simplex.size(); ++from) {
-      if (from == omitted) continue;
-      const double* y = coordinates + std::size_t{frame.simplex[from].value} * space.rank();
-      rows.row(static_cast<Eigen::Index>(row++)) = Eigen::Map<const Eigen::RowVectorXd>(y, rank);
-    }
-    const Eigen::VectorXd plane = SquareFactors(rows).solve(Eigen::VectorXd::Ones(rank));
+  for (const Eigen::VectorXd& plane : simplex_planes(coordinates, space.rank(), frame.simplex)) {
     normals.emplace_back(space.rank());
-    space.normal_of({plane.data(), space.rank()}, normals.back().data());
+    space.normal_of(as_span(plane), normals.back().data());
   }
   return normals;
 }

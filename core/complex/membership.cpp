@@ -7,6 +7,7 @@
 
 #include "core/complex/membership_kernels.h"
 #include "core/linear/dense_solve.h"
+#include "core/linear/simplex_planes.h"
 #include "core/machine/blocks.h"
 
 namespace ndhull {
@@ -132,17 +133,9 @@ HullBall find_ball(std::size_t rank, const double* points, std::size_t point_cou
     longest_sq = std::max(longest_sq, length_sq);
   }
   ball.reach = std::sqrt(longest_sq) * (1.0 + 1e-14);
-  const auto size = static_cast<Eigen::Index>(rank);
   double longest_dual = 0.0;
-  for (std::size_t omitted = 0; omitted <= rank; ++omitted) {
-    Eigen::MatrixXd rows(size, size);
-    for (std::size_t from = 0, row = 0; from <= rank; ++from) {
-      if (from == omitted) continue;
-      rows.row(static_cast<Eigen::Index>(row++)) =
-          Eigen::Map<const Eigen::RowVectorXd>(points + std::size_t{simplex[from].value} * rank, size);
-    }
-    longest_dual = std::max(longest_dual, SquareFactors(rows).solve(Vector::Ones(size)).norm());
-  }
+  for (const Vector& plane : simplex_planes(points, rank, simplex))
+    longest_dual = std::max(longest_dual, plane.norm());
   // The frame keeps the simplex well shaped (condition about 1e6 at the worst): the solve's error is far
   // below.
   ball.inner_radius = 0.999 / longest_dual;

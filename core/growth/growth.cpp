@@ -8,27 +8,12 @@
 
 #include "core/error.h"
 #include "core/growth/staged_table.h"
-#include "core/linear/dense_solve.h"
+#include "core/linear/simplex_planes.h"
 #include "core/machine/block_store.h"
 #include "core/machine/blocks.h"
 
 namespace ndhull {
 namespace {
-
-/// The dual vertex of the plane through `rank` points, refined once.
-void solve_plane(const GrowthWork& work, std::span<const PointId> vertices, double* plane) {
-  const auto rank = static_cast<Eigen::Index>(work.rank);
-  Eigen::MatrixXd rows(rank, rank);
-  for (Eigen::Index i = 0; i < rank; ++i) {
-    const double* point = work.points + std::size_t{vertices[static_cast<std::size_t>(i)].value} * work.rank;
-    for (Eigen::Index k = 0; k < rank; ++k) rows(i, k) = point[k];
-  }
-  const SquareFactors factors(rows);
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
-  Eigen::VectorXd dual = factors.solve(ones);
-  dual += factors.solve(ones - rows * dual);
-  std::copy_n(dual.data(), work.rank, plane);
-}
 
 /// Before a hull begins: nothing is left of one before, and no point has a place.
 void clear_work(GrowthWork& work) {
@@ -168,7 +153,8 @@ void start_growth(GrowthWork& work, std::span<const PointId> simplex, FirstPoint
       std::swap(vertices[0], vertices[1]);
       std::swap(neighbours[0], neighbours[1]);
     }
-    solve_plane(work, complex.vertices(SimplexId{row}), complex.planes.data() + row * work.rank);
+    const Eigen::VectorXd plane = plane_through(work.points, work.rank, complex.vertices(SimplexId{row}));
+    std::copy_n(plane.data(), work.rank, complex.planes.data() + row * work.rank);
     complex.state[row] = SimplexState::kLive;
   }
   const double least = least_height(work);

@@ -15,6 +15,7 @@
 
 #include "core/dimension_switch.h"
 #include "core/machine/blocks.h"
+#include "core/machine/mask_bits-inl.h"
 #include "core/machine/prefetch.h"
 
 #ifndef NDHULL_BYTE_SEARCH_
@@ -224,15 +225,6 @@ class SegmentSearch {
     return hn::LoadU(tag_, maxima_ + vector * hn::Lanes(tag_));
   }
 
-  template <class Mask>
-  static HWY_INLINE std::uint64_t bits_of(Mask mask) {
-    std::uint8_t bytes[8] = {};  // as many bits as there are lanes
-    hn::StoreMaskBits(tag_, mask, bytes);
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < 8; ++i) bits |= std::uint64_t{bytes[i]} << (8 * i);
-    return bits;
-  }
-
   void list_candidates(std::int32_t least) {
     const auto low = hn::Set(tag_, static_cast<std::int16_t>(least));
     const std::uint64_t of_chunk = (std::uint64_t{1} << kept_lanes()) - 1;
@@ -244,7 +236,7 @@ class SegmentSearch {
         near |= std::uint64_t{!hn::AllTrue(tag_, hn::Lt(maxima(at), low))} << (at - begin);
       for (; near != 0; near &= near - 1) {
         const std::size_t at = begin + static_cast<std::size_t>(__builtin_ctzll(near));
-        std::uint64_t bits = bits_of(hn::Not(hn::Lt(maxima(at), low)));
+        std::uint64_t bits = bits_of_mask(tag_, hn::Not(hn::Lt(maxima(at), low)));
         while (bits != 0) {
           const std::size_t chunk = static_cast<std::size_t>(__builtin_ctzll(bits)) / kept_lanes();
           bits &= ~(of_chunk << chunk * kept_lanes());
@@ -261,7 +253,7 @@ class SegmentSearch {
       for (std::size_t at = 0; at < BytePoints::kTile; at += hn::Lanes(tag_)) {
         const auto is_below = hn::Lt(tile_sums<kPairs>(points_.tile(tile), weights_, at), low);
         if (hn::AllTrue(tag_, is_below)) continue;
-        for (std::uint64_t bits = bits_of(hn::Not(is_below)); bits != 0; bits &= bits - 1) {
+        for (std::uint64_t bits = bits_of_mask(tag_, hn::Not(is_below)); bits != 0; bits &= bits - 1) {
           const std::size_t place =
               tile * BytePoints::kTile + at + static_cast<std::size_t>(__builtin_ctzll(bits));
           if (place >= points_.rows().count) break;

@@ -14,6 +14,7 @@
 
 #include "core/dimension_switch.h"
 #include "core/machine/chosen_lanes-inl.h"
+#include "core/machine/mask_bits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -84,9 +85,7 @@ std::size_t list_near_groups(const PointGroups& points, const float* normal, flo
     auto reach = hn::MulAdd(length, hn::LoadU(tag, points.radii() + begin), base);
     for (std::size_t k = 0; k < width; ++k)
       reach = hn::MulAdd(hn::Set(tag, normal[k]), hn::LoadU(tag, points.centres(k) + begin), reach);
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(tag, hn::Not(hn::Lt(reach, hn::Zero(tag))), bytes);
-    const std::uint32_t is_near = bytes[0] | std::uint32_t{bytes[1]} << 8;
+    const auto is_near = static_cast<std::uint32_t>(bits_of_mask(tag, hn::Not(hn::Lt(reach, hn::Zero(tag)))));
     hn::StoreU(ChosenLanes(id_tag, is_near).to_front(ids), id_tag, near + count);
     count += static_cast<std::size_t>(__builtin_popcount(is_near));
     ids = hn::Add(ids, next);

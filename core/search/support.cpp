@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include "core/dimension_switch.h"
+#include "core/machine/mask_bits-inl.h"
 
 #ifndef NDHULL_SUPPORT_BLOCK_
 #define NDHULL_SUPPORT_BLOCK_
@@ -61,11 +62,8 @@ void find_rows_above(const float* dots, std::size_t count, float low, std::vecto
   for (std::size_t row = 0; row < count; row += hn::Lanes(tag)) {
     const auto is_above = hn::Not(hn::Lt(hn::LoadU(tag, dots + row), least));
     if (hn::AllFalse(tag, is_above)) continue;
-    std::uint8_t bytes[8] = {};  // as many bits as there are lanes
-    hn::StoreMaskBits(tag, is_above, bytes);
-    for (std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8; bits != 0;
-         bits &= bits - 1) {
-      const auto found = static_cast<std::uint32_t>(row) + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    for (std::uint64_t bits = bits_of_mask(tag, is_above); bits != 0; bits &= bits - 1) {
+      const auto found = static_cast<std::uint32_t>(row) + static_cast<std::uint32_t>(__builtin_ctzll(bits));
       if (found < count) rows.push_back(found);
     }
   }

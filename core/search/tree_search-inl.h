@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/dimension_switch.h"
+#include "core/machine/mask_bits-inl.h"
 #include "core/machine/prefetch.h"
 #include "core/search/point_tree.h"
 
@@ -253,10 +254,8 @@ class TreeSearch {
     for (std::size_t begin = 0; begin < count; begin += hn::Lanes(tag)) {
       const auto is_below = hn::Lt(hn::LoadU(tag, bounds + begin), hn::Set(tag, threshold_));
       if (hn::AllTrue(tag, is_below)) continue;
-      std::uint8_t bytes[8] = {};  // as many bits as there are lanes
-      hn::StoreMaskBits(tag, hn::Not(is_below), bytes);
-      for (unsigned bits = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; bits != 0; bits &= bits - 1) {
-        const std::size_t at = begin + static_cast<std::size_t>(__builtin_ctz(bits));
+      for (std::uint64_t bits = bits_of_mask(tag, hn::Not(is_below)); bits != 0; bits &= bits - 1) {
+        const std::size_t at = begin + static_cast<std::size_t>(__builtin_ctzll(bits));
         if (at < count && !(bounds[at] < threshold_)) call(at);  // it may have been raised since
       }
     }
@@ -300,10 +299,8 @@ class TreeSearch {
     for (std::size_t at = 0; at < PointTree::kSize; at += hn::Lanes(tag)) {
       const auto is_below = hn::Lt(scaled_dots(rows + at), least);
       if (hn::AllTrue(tag, is_below)) continue;
-      std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(tag, hn::Not(is_below), bytes);
-      for (unsigned bits = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; bits != 0; bits &= bits - 1)
-        call(at + static_cast<std::size_t>(__builtin_ctz(bits)));
+      for (std::uint64_t bits = bits_of_mask(tag, hn::Not(is_below)); bits != 0; bits &= bits - 1)
+        call(at + static_cast<std::size_t>(__builtin_ctzll(bits)));
     }
   }
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/linear/dense_solve.h"
+#include "core/linear/simplex_planes.h"
 
 namespace ndhull {
 namespace {
@@ -77,24 +77,15 @@ void DoubleDescription::choose_order(std::span<const PointId> simplex) {
 }
 
 void DoubleDescription::start(std::span<const PointId> simplex) {
-  const auto rank = static_cast<Index>(rank_);
-  for (std::uint32_t left_out = 0; left_out <= rank_; ++left_out) {
+  const std::vector<Eigen::VectorXd> planes = simplex_planes(points_, rank_, simplex);
+  for (std::size_t left_out = 0; left_out <= rank_; ++left_out) {
     const std::uint32_t row = make_row();
-    Eigen::MatrixXd corners(rank, rank);
-    for (std::size_t place = 0, i = 0; place <= rank_; ++place) {
+    for (std::size_t place = 0; place <= rank_; ++place) {
       if (place == left_out) continue;
-      const double* point = points_ + std::size_t{simplex[place].value} * rank_;
-      for (std::size_t k = 0; k < rank_; ++k)
-        corners(static_cast<Index>(i), static_cast<Index>(k)) = point[k];
       set_bit(row, place);
       neighbours_[row].push_back(static_cast<std::uint32_t>(place));
-      ++i;
     }
-    const SquareFactors factors(corners);
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
-    Eigen::VectorXd plane = factors.solve(ones);
-    plane += factors.solve(ones - corners * plane);
-    std::copy_n(plane.data(), rank_, planes_.data() + row * rank_);
+    std::copy_n(planes[left_out].data(), rank_, planes_.data() + row * rank_);
     sides_[row] = Side::kBelow;
   }
   next_ = rank_ + 1;
