@@ -274,9 +274,11 @@ void HullBuilder::make_facets(const KnownHighest& known) {
   const Clock::time_point start = Clock::now();
   if (!hull_.is_approximate) {
     is_vertex_ = find_vertices(complex(), hull_.layout_, points_.rows);
-  } else {  // of the inner hull, that of all simplices
-    is_vertex_ =
-        growth_->work().shifted_points.empty() ? corners() : find_vertices_of_shifted(growth_->work());
+  } else if (growth_->work().shifted_points.empty()) {  // of the inner hull, that of all simplices
+    is_vertex_ = corners();
+  } else {
+    is_vertex_ = find_vertices_of_shifted(growth_->work());
+    keep_enough_vertices(complex(), hull_.layout_, is_vertex_);
   }
   for (std::uint32_t id = 0; id < points_.rows; ++id)
     if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});

@@ -14,9 +14,9 @@ using ConstRow = Eigen::Map<const Vector>;
 /// many of its points as it needs, those in most facets first (`facets_at`: how many, for points in merged
 /// facets only; `found`: per merged facet, how many of its points became vertices here). One vertex too many
 /// is harmless, one too few is not.
-void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
-                          const std::vector<std::uint32_t>& facets_at,
-                          const std::vector<std::uint32_t>& found, std::vector<bool>& is_vertex) {
+void keep_enough_of_merged(const SimplicialComplex& complex, const FacetLayout& layout,
+                           const std::vector<std::uint32_t>& facets_at,
+                           const std::vector<std::uint32_t>& found, std::vector<bool>& is_vertex) {
   std::vector<PointId> points;
   std::vector<std::uint32_t> last_facet(is_vertex.size(), FacetId::kNone);
   for (std::uint32_t merged = 0; merged + layout.simplicial < layout.facets; ++merged) {
@@ -68,6 +68,23 @@ bool normals_span(const SimplicialComplex& complex, const FacetLayout& layout,
 
 }  // namespace
 
+void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
+                          std::vector<bool>& is_vertex) {
+  std::vector<std::uint32_t> facets_at(is_vertex.size(), 0), last_facet(is_vertex.size(), FacetId::kNone);
+  for (std::uint32_t facet = 0; facet < layout.facets; ++facet) {
+    for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
+      for (const PointId id : complex.vertices(simplex)) {
+        if (facet >= layout.regular && facet < layout.simplicial) is_vertex[id.value] = true;
+        if (last_facet[id.value] == facet) continue;
+        last_facet[id.value] = facet;
+        ++facets_at[id.value];
+      }
+    }
+  }
+  const std::vector<std::uint32_t> none_found(layout.facets - layout.simplicial, 0);
+  keep_enough_of_merged(complex, layout, facets_at, none_found, is_vertex);
+}
+
 std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count) {
   // All vertices of a facet that was not merged are vertices: it is clearly convex. Points in merged facets
@@ -98,7 +115,7 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
     is_vertex[incidences[begin].first] = true;
     for (const std::uint32_t facet : around) ++found[facet - layout.simplicial];
   }
-  keep_enough_vertices(complex, layout, facets_at, found, is_vertex);
+  keep_enough_of_merged(complex, layout, facets_at, found, is_vertex);
   return is_vertex;
 }
 
