@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/linear/dense_solve.h"
 #include "core/linear/simplex_planes.h"
 
 namespace ndhull {
