@@ -37,8 +37,8 @@ FacetClusters merge_coplanar(const SimplicialComplex& complex, const double* poi
 std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                                 std::size_t point_count);
 
-/// Adds points to vertices of which shifts have left out some: all of a facet of one simplex beside a merged
-/// one, and of a merged one with fewer than rank of them as many more, those in most facets first.
+/// Adds points to vertices of which shifts have left out some: all of a facet of one simplex, and of a merged
+/// one with fewer than rank of them as many more, those in most facets first.
 /// `is_vertex`: one flag a point.
 /// Cost  O(s rank) for s simplices.
 void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,

@@ -74,7 +74,7 @@ void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& l
   for (std::uint32_t facet = 0; facet < layout.facets; ++facet) {
     for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
       for (const PointId id : complex.vertices(simplex)) {
-        if (facet >= layout.regular && facet < layout.simplicial) is_vertex[id.value] = true;
+        if (facet < layout.simplicial) is_vertex[id.value] = true;
         if (last_facet[id.value] == facet) continue;
         last_facet[id.value] = facet;
         ++facets_at[id.value];

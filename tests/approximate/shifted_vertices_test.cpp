@@ -65,7 +65,11 @@ TEST(ShiftedVerticesLaw, EveryFacetHasAsManyVerticesAsThereAreDimensions) {
         set.coordinates[i] += (seed % 2 == 0 ? 1e-11 : 1e-12) * noise.coordinates[i];
       for (std::size_t i = 0; i < tried.size(); ++i) {
         SCOPED_TRACE(std::to_string(d) + "-d, seed " + std::to_string(seed) + ", " + std::to_string(i));
-        expect_approximate_laws(hull_of(set, {.accuracy = tried[i]}), set.view());
+        const Hull hull = hull_of(set, {.accuracy = tried[i]});
+        expect_approximate_laws(hull, set.view());
+        for (std::uint32_t row = 0; row < hull.facet_count(); ++row)
+          for (const PointId id : hull.vertices_of(FacetId{row}))
+            EXPECT_TRUE(std::ranges::binary_search(hull.vertices, id.value, {}, &PointId::value));
       }
     }
   }
