@@ -51,6 +51,22 @@ double solve_simplex(std::array<std::array<double, D>, D>& matrix, std::array<do
   return std::abs(determinant);
 }
 
+struct RowScratch {
+  RowScratch(const WidthSpace& space, std::size_t vertex_count) : slabs(space), is_among(vertex_count) {}
+  SlabScratch slabs;
+  std::vector<std::uint8_t> is_among;
+};
+/// The slab of one lane's seed, and the rows that it holds and no facet has.
+struct RowLane {
+  std::uint32_t next = 0, end = 0;
+  std::uint32_t seed = 0;
+  bool fits = false;
+  VertexSlab slab;
+  std::vector<std::uint32_t> held;
+  std::uint32_t facet = kNone;
+  double surface = 0.0;  // of what became the facet
+};
+
 template <std::size_t D>
 class RowCover {
  public:
@@ -83,22 +99,6 @@ class RowCover {
 
  private:
   using Plane = std::array<double, D>;
-  struct RowScratch {
-    RowScratch(const WidthSpace& space, std::size_t vertex_count) : slabs(space), is_among(vertex_count) {}
-    SlabScratch slabs;
-    std::vector<std::uint8_t> is_among;
-  };
-  /// The slab of one lane's seed, and the rows that it holds and no facet has.
-  struct Lane {
-    std::uint32_t next = 0, end = 0;
-    std::uint32_t seed = 0;
-    bool fits = false;
-    VertexSlab slab;
-    std::vector<std::uint32_t> held;
-    std::uint32_t facet = kNone;
-    double surface = 0.0;  // of what became the facet
-  };
-
   /// |determinant| of a row's vertices.
   double solve(std::uint32_t row, Plane& plane) const {
     std::array<std::uint32_t, D> ids;
@@ -130,7 +130,7 @@ class RowCover {
   }
 
   /// The slabs of seeds, one a lane.
-  void find_slabs(std::span<Lane* const> lanes) {
+  void find_slabs(std::span<RowLane* const> lanes) {
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       std::array<std::uint32_t, D> ids;
       rows_.vertices_of(lanes[i]->seed, ids.data());
@@ -142,7 +142,7 @@ class RowCover {
     }
     for_each_block(lanes.size(), 1, [&](std::size_t i, std::size_t) {
       RowScratch& scratch = scratch_of_thread_.local();
-      Lane& lane = *lanes[i];
+      RowLane& lane = *lanes[i];
       grower_.find_vertices_of(lane.slab, width_, CoverEffort(), scratch.slabs);
       std::vector<std::uint32_t>& vertices = lane.slab.vertices;
       std::sort(vertices.begin(), vertices.end());
@@ -158,15 +158,15 @@ class RowCover {
   }
 
   double mean_size() {
-    std::vector<Lane> lanes(kLanes);
-    std::vector<Lane*> chosen;
+    std::vector<RowLane> lanes(kLanes);
+    std::vector<RowLane*> chosen;
     for (std::size_t i = 0; i < kLanes; ++i) {
       lanes[i].seed = static_cast<std::uint32_t>((2 * i + 1) * rows_.count() / (2 * kLanes));
       chosen.push_back(&lanes[i]);
     }
     find_slabs(chosen);
     std::size_t sum = 0;
-    for (const Lane& lane : lanes) sum += lane.held.size();
+    for (const RowLane& lane : lanes) sum += lane.held.size();
     return static_cast<double>(sum) / kLanes;
   }
 
@@ -174,15 +174,15 @@ class RowCover {
   bool pass(std::size_t least) {
     for (std::uint8_t& state : state_)
       if (state != kTaken) state &= static_cast<std::uint8_t>(~kPutOff);
-    std::vector<Lane> lanes(kLanes);
+    std::vector<RowLane> lanes(kLanes);
     for (std::size_t row_class = 0; row_class < static_cast<std::size_t>(kRowClasses); ++row_class) {
       for (std::size_t i = 0; i < kLanes; ++i) {
         lanes[i].next = static_cast<std::uint32_t>(i * rows_.count() / kLanes);
         lanes[i].end = static_cast<std::uint32_t>((i + 1) * rows_.count() / kLanes);
       }
-      for (std::vector<Lane*> chosen(1); !chosen.empty();) {
+      for (std::vector<RowLane*> chosen(1); !chosen.empty();) {
         chosen.clear();
-        for (Lane& lane : lanes) {
+        for (RowLane& lane : lanes) {
           const auto found = std::find(state_.begin() + lane.next, state_.begin() + lane.end,
                                        static_cast<std::uint8_t>(row_class));
           lane.seed = static_cast<std::uint32_t>(found - state_.begin());
@@ -192,7 +192,7 @@ class RowCover {
         if (chosen.empty()) break;
         if (gives_up_ && gives_up_(rows_.count() - taken_, facets_.count())) return false;
         find_slabs(chosen);
-        for (Lane* const lane : chosen)
+        for (RowLane* const lane : chosen)
           if (!take(*lane, least)) return false;
         sum_up(chosen);
       }
@@ -201,7 +201,7 @@ class RowCover {
   }
 
   /// Makes a facet of what the slab holds, or puts it off. False: the seed alone is too wide.
-  bool take(Lane& lane, std::size_t least) {
+  bool take(RowLane& lane, std::size_t least) {
     lane.facet = kNone;
     if (!lane.fits) return false;
     std::erase_if(lane.held, [&](std::uint32_t row) { return state_[row] == kTaken; });
@@ -222,9 +222,9 @@ class RowCover {
   }
 
   /// The tables of the facets that were just made.
-  void sum_up(std::span<Lane* const> lanes) {
+  void sum_up(std::span<RowLane* const> lanes) {
     for_each_block(lanes.size(), 1, [&](std::size_t i, std::size_t) {
-      Lane& lane = *lanes[i];
+      RowLane& lane = *lanes[i];
       lane.surface = 0.0;
       if (lane.facet == kNone) return;
       std::vector<std::uint8_t>& is_among = scratch_of_thread_.local().is_among;
@@ -245,7 +245,7 @@ class RowCover {
       std::erase_if(lane.slab.vertices, [&](std::uint32_t vertex) { return is_among[vertex] == 0; });
       for (const std::uint32_t vertex : lane.slab.vertices) is_among[vertex] = 0;
     });
-    for (Lane* const lane : lanes) {
+    for (RowLane* const lane : lanes) {
       facets_.surface += lane->surface;
       if (lane->facet == kNone) continue;
       facets_.vertices.append(lane->slab.vertices);

@@ -26,9 +26,46 @@ namespace {
 
 /// Neighbours are looked at whose vertex across a ridge is less than this part of the width below the slab.
 constexpr double kReach = 1.0;
-/// So many of them are tried, until one fits: all others would leave 1 to 3 % fewer facets, in twice the
-/// time.
+/// So many of them are tried, until one fits: all others leave 1 to 3 % fewer facets, in twice the time.
 constexpr std::size_t kMostNeighbours = 4;
+
+/// A facet as it has become.
+struct JoinedFacet {
+  std::uint32_t simplices;                   // 0: it has joined another
+  std::uint32_t first_vertex, vertex_count;  // among those listed, or behind; none of a single simplex
+  double top, room;                          // of its plane; how deep vertices may be below that
+};
+/// Between the facet that is being looked at and a neighbour.
+struct RidgeBetween {
+  std::uint32_t place;  // of the neighbour, among those that are looked at
+  std::uint32_t own;    // the facet's vertex opposite the ridge
+  double height;        // of the neighbour's, below the facet's plane
+};
+/// Across a ridge; the planes between that both fit below.
+struct PossibleHost {
+  std::uint32_t facet;
+  Interval interval;
+};
+/// What a facet joins.
+struct JoinHost {
+  std::uint32_t facet = kNone;
+  double place = 0.0;  // of the common plane on the segment to it
+};
+/// What one thread looks at.
+struct HostSearch {
+  explicit HostSearch(std::size_t facets) : place_of(facets, 0) {}
+  std::vector<std::uint32_t> place_of;  // per facet: in neighbours, when it was there last
+  std::vector<std::uint32_t> met;       // facets across the ridges, some of them often
+  std::vector<PossibleHost> neighbours;
+  std::vector<RidgeBetween> ridges;
+  std::vector<std::array<double, 2>> depths;
+  std::vector<double> own_depths;  // of the facet that is being looked at
+};
+/// As one thread would find it, if no facet that was met has changed since.
+struct ForeseenHost {
+  JoinHost host;
+  std::vector<std::uint32_t> met;
+};
 
 template <std::size_t D>
 class SegmentMerger {
@@ -70,7 +107,7 @@ class SegmentMerger {
     if (threads > 1) {
       join_foreseen(small, most_simplices, threads);
     } else {
-      Search search(table_.count());
+      HostSearch search(table_.count());
       for (std::size_t i = 0; i < small.size(); ++i) {
         fetch(small, i);
         if (is_small(small[i], most_simplices)) join(small[i], find_host(small[i], search));
@@ -80,42 +117,6 @@ class SegmentMerger {
   }
 
  private:
-  struct Facet {
-    std::uint32_t simplices;                   // 0: it has joined another
-    std::uint32_t first_vertex, vertex_count;  // in listed_, or behind; none of a single simplex
-    double top, room;                          // of its plane; how deep vertices may be below that
-  };
-  /// Between the facet that is being looked at and a neighbour.
-  struct Ridge {
-    std::uint32_t place;  // of the neighbour, in neighbours_
-    std::uint32_t own;    // the facet's vertex opposite the ridge
-    double height;        // of the neighbour's, below the facet's plane
-  };
-  struct Neighbour {
-    std::uint32_t facet;
-    Interval interval;
-  };
-  struct Host {
-    std::uint32_t facet = kNone;
-    double place = 0.0;  // of the common plane on the segment to it
-  };
-  /// What one thread looks at.
-  struct Search {
-    explicit Search(std::size_t facets) : place_of(facets, 0) {}
-
-    std::vector<std::uint32_t> place_of;  // per facet: in neighbours, when it was there last
-    std::vector<std::uint32_t> met;       // facets across the ridges, some of them often
-    std::vector<Neighbour> neighbours;
-    std::vector<Ridge> ridges;
-    std::vector<std::array<double, 2>> depths;
-    std::vector<double> own_depths;  // of the facet that is being looked at
-  };
-  /// As one thread would find it, if no facet that was met has changed since.
-  struct Foreseen {
-    Host host;
-    std::vector<std::uint32_t> met;
-  };
-
   /// Below this nothing is foreseen: a team takes some 0.1 ms to begin.
   static constexpr std::size_t kFewFacets = 512, kMostThreads = 8;
   static constexpr std::size_t kForeseenInBlock = 16, kBlocksOfThread = 4, kHostsAhead = 4;
@@ -126,7 +127,7 @@ class SegmentMerger {
     return facets_[facet].simplices <= most_simplices;
   }
 
-  void ask_for_host(const Host& host) const {
+  void ask_for_host(const JoinHost& host) const {
     if (host.facet == kNone) return;
     prefetch(&facets_[host.facet]);
     prefetch(plane_of(host.facet), D);
@@ -137,15 +138,15 @@ class SegmentMerger {
   /// The same joins in the same order. Hosts are looked for by all threads, some facets ahead; where a facet
   /// that was met has changed by then it is done again.
   void join_foreseen(std::span<const std::uint32_t> small, std::size_t most_simplices, std::size_t threads) {
-    tbb::enumerable_thread_specific<Search> searches([&] { return Search(table_.count()); });
-    std::vector<Foreseen> foreseen(kForeseenInBlock * kBlocksOfThread * threads);
+    tbb::enumerable_thread_specific<HostSearch> searches([&] { return HostSearch(table_.count()); });
+    std::vector<ForeseenHost> foreseen(kForeseenInBlock * kBlocksOfThread * threads);
     std::vector<std::uint32_t> round_of(table_.count(), 0);  // per facet: that changed it
     Team team(threads);
     std::uint32_t round = 0;
     for (std::size_t first = 0; first < small.size(); first += foreseen.size()) {
       const auto batch = small.subspan(first, std::min(foreseen.size(), small.size() - first));
       team.for_each_block(batch.size(), kForeseenInBlock, [&](std::size_t begin, std::size_t end) {
-        Search& search = searches.local();
+        HostSearch& search = searches.local();
         for (std::size_t i = begin; i < end; ++i) {
           fetch(batch, i);
           if (!is_small(batch[i], most_simplices)) continue;
@@ -158,7 +159,7 @@ class SegmentMerger {
       for (std::size_t i = 0; i < batch.size(); ++i) {
         ask_for_host(foreseen[std::min(i + kHostsAhead, batch.size() - 1)].host);
         if (!is_small(batch[i], most_simplices)) continue;
-        Host host = foreseen[i].host;
+        JoinHost host = foreseen[i].host;
         if (has_changed(batch[i]) || std::ranges::any_of(foreseen[i].met, has_changed))
           host = find_host(batch[i], searches.local());
         if (host.facet == kNone) continue;
@@ -209,21 +210,21 @@ class SegmentMerger {
   }
 
   /// The first that fits. To look for the one that it is narrowest with takes longer, and leaves more facets.
-  Host find_host(std::uint32_t facet, Search& search) const {
+  JoinHost find_host(std::uint32_t facet, HostSearch& search) const {
     find_neighbours(facet, search);
     choose_neighbours(search.neighbours);
-    for (const Neighbour& neighbour : search.neighbours) prefetch(vertices_of(neighbour.facet).data());
+    for (const PossibleHost& neighbour : search.neighbours) prefetch(vertices_of(neighbour.facet).data());
     if (!search.neighbours.empty()) find_own_depths(facet, search);
-    for (const Neighbour& neighbour : search.neighbours) {
-      Host host{neighbour.facet};
+    for (const PossibleHost& neighbour : search.neighbours) {
+      JoinHost host{neighbour.facet};
       if (find_fit(facet, neighbour, search, host.place)) return host;
     }
     return {};
   }
 
   /// Neighbours, with what the two vertices across each ridge leave of the interval.
-  void find_neighbours(std::uint32_t facet, Search& search) const {
-    std::vector<Neighbour>& neighbours = search.neighbours;
+  void find_neighbours(std::uint32_t facet, HostSearch& search) const {
+    std::vector<PossibleHost>& neighbours = search.neighbours;
     neighbours.clear();
     search.ridges.clear();
     search.met.clear();
@@ -248,7 +249,7 @@ class SegmentMerger {
         search.ridges.push_back({place, row[k], height});
       }
     });
-    for (const Ridge& ridge : search.ridges) {
+    for (const RidgeBetween& ridge : search.ridges) {
       Interval& interval = neighbours[ridge.place].interval;
       if (interval.is_empty()) continue;
       const std::uint32_t other = neighbours[ridge.place].facet;
@@ -260,9 +261,9 @@ class SegmentMerger {
   }
 
   /// Keeps the neighbours that the ridges leave the longest intervals with, the longest first.
-  static void choose_neighbours(std::vector<Neighbour>& neighbours) {
-    std::erase_if(neighbours, [](const Neighbour& neighbour) { return neighbour.interval.is_empty(); });
-    const auto is_longer = [](const Neighbour& a, const Neighbour& b) {
+  static void choose_neighbours(std::vector<PossibleHost>& neighbours) {
+    std::erase_if(neighbours, [](const PossibleHost& neighbour) { return neighbour.interval.is_empty(); });
+    const auto is_longer = [](const PossibleHost& a, const PossibleHost& b) {
       const double length_of_a = a.interval.length(), length_of_b = b.interval.length();
       return length_of_a != length_of_b ? length_of_a > length_of_b : a.facet < b.facet;
     };
@@ -273,7 +274,7 @@ class SegmentMerger {
   }
 
   /// How deep the facet's vertices are below its own plane.
-  void find_own_depths(std::uint32_t facet, Search& search) const {
+  void find_own_depths(std::uint32_t facet, HostSearch& search) const {
     search.own_depths.clear();
     for (const PointId vertex : vertices_of(facet))
       search.own_depths.push_back(facets_[facet].top - dot(plane_of(facet), vertex.value));
@@ -281,10 +282,10 @@ class SegmentMerger {
 
   /// Is there a plane between those of the two facets, at `place` on the segment, that both are less than the
   /// width below?
-  bool find_fit(std::uint32_t facet, const Neighbour& neighbour, Search& search, double& place) const {
+  bool find_fit(std::uint32_t facet, const PossibleHost& neighbour, HostSearch& search, double& place) const {
     const std::uint32_t other = neighbour.facet;
     Interval interval = neighbour.interval;
-    const Facet &first = facets_[facet], &last = facets_[other];
+    const JoinedFacet &first = facets_[facet], &last = facets_[other];
     const double *first_plane = plane_of(facet), *last_plane = plane_of(other);
     search.depths.clear();
     const auto take = [&](double depth, double depth_of_other) {
@@ -312,7 +313,7 @@ class SegmentMerger {
     for (std::size_t k = 0; k < D; ++k) out[k] = (1.0 - place) * first[k] + place * last[k];
   }
 
-  void join(std::uint32_t facet, const Host& found) {
+  void join(std::uint32_t facet, const JoinHost& found) {
     const auto [host, place] = found;
     if (host == kNone) return;
     for_members(facet, [&](std::uint32_t row) { facet_of_[row] = host; });
@@ -378,7 +379,7 @@ class SegmentMerger {
   double width_;
   DualFacets& table_;
   std::vector<std::uint32_t> facet_of_;  // per row of the complex: as joined
-  std::vector<Facet> facets_;
+  std::vector<JoinedFacet> facets_;
   HugeArray<double> planes_;                      // facets x D
   std::vector<std::uint32_t> next_, last_;        // per facet: chains of those that have joined it
   std::vector<PointId> listed_, joined_, union_;  // each facet's vertices once, those of joined ones behind

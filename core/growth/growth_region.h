@@ -18,6 +18,9 @@ struct RegionApex {
   double value;   ///< of its simplex, beside the border
 };
 
+/// The furthest first; of equal ones the lower point.
+void sort_by_height(std::vector<RegionApex>& apexes);
+
 /// Dual vertices a with weights[0] a[axes[0]] + weights[1] a[axes[1]] > least.
 struct RegionBorder {
   std::size_t axes[2] = {0, 1};

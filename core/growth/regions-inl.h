@@ -244,9 +244,7 @@ bool Grower<D>::part_into_regions(double furthest) {
   most = std::min(regions_[0].apexes.size(), regions_[1].apexes.size());
   if (most < kFew / 2) return false;
   for (GrowthRegion& region : regions_) {
-    std::sort(region.apexes.begin(), region.apexes.end(), [](const RegionApex& a, const RegionApex& b) {
-      return a.height != b.height ? a.height > b.height : a.point < b.point;
-    });
+    sort_by_height(region.apexes);
     region.apexes.resize(most);
     region.clearance = clearance_of(region);
   }

@@ -19,6 +19,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<double>;
 using Lane = hn::Vec<Tag>;
 
+/// Up to here loops over a matrix are unrolled. Larger ones are more instructions than the first cache holds.
+constexpr std::size_t kMostUnrolled = 10;
+
+/// `call` with each of [first, last).
+template <bool kUnrolled, class Call>
+HWY_INLINE void for_each_index(std::size_t first, std::size_t last, const Call& call) {
+  if constexpr (kUnrolled) {
+    HWY_UNROLL(16)  // all of it: at most kMostUnrolled
+    for (std::size_t i = first; i < last; ++i) call(i);
+  } else {
+    for (std::size_t i = first; i < last; ++i) call(i);
+  }
+}
+
 /// Solves matrix[.][0..D) x = matrix[.][D] in each lane; the matrix is overwritten. Returns the
 /// determinant. Gaussian elimination with partial pivoting (Golub, Van Loan. Matrix Computations, 4th
 /// ed., 3.4). Row exchanges are blends: each row below that has a larger entry is exchanged with the pivot
@@ -27,11 +41,11 @@ using Lane = hn::Vec<Tag>;
 /// it meets is small: `smallest`.
 template <std::size_t D, bool kPivots = true>
 HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D], Lane* smallest = nullptr) {
+  constexpr bool kUnrolled = D <= kMostUnrolled;
   const Tag tag;
   Lane determinant = hn::Set(tag, 1.0);
   if (!kPivots) *smallest = hn::Set(tag, HUGE_VAL);
-  HWY_UNROLL(16)  // all of it: D is at most kMaxRank
-  for (std::size_t column = 0; column < D; ++column) {
+  for_each_index<kUnrolled>(0, D, [&](std::size_t column) HWY_ATTR {
     for (std::size_t row = column + 1; kPivots && row < D; ++row) {
       const auto larger = hn::Gt(hn::Abs(matrix[row][column]), hn::Abs(matrix[column][column]));
       determinant = hn::IfThenElse(larger, hn::Neg(determinant), determinant);
@@ -44,14 +58,13 @@ HWY_INLINE Lane eliminate(Lane (&matrix)[D][D + 1], Lane (&x)[D], Lane* smallest
     determinant = hn::Mul(determinant, matrix[column][column]);
     if (!kPivots) *smallest = hn::Min(*smallest, hn::Abs(matrix[column][column]));
     const Lane inverse = hn::Div(hn::Set(tag, 1.0), matrix[column][column]);
-    HWY_UNROLL(16)
-    for (std::size_t row = column + 1; row < D; ++row) {
+    for_each_index<kUnrolled>(column + 1, D, [&](std::size_t row) HWY_ATTR {
       const Lane factor = hn::Neg(hn::Mul(matrix[row][column], inverse));
-      HWY_UNROLL(16)
-      for (std::size_t k = column + 1; k <= D; ++k)
+      for_each_index<kUnrolled>(column + 1, D + 1, [&](std::size_t k) HWY_ATTR {
         matrix[row][k] = hn::MulAdd(factor, matrix[column][k], matrix[row][k]);
-    }
-  }
+      });
+    });
+  });
   for (std::size_t row = D; row-- > 0;) {
     Lane rest = matrix[row][D];
     for (std::size_t k = row + 1; k < D; ++k) rest = hn::NegMulAdd(matrix[row][k], x[k], rest);

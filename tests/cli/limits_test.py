@@ -71,10 +71,10 @@ def test_a_search_for_points_left_out_keeps_the_memory_limit():
 
 def test_what_comes_after_growth_keeps_the_memory_limit_too():
     path = fresh_folder("hull_memory") / "points.npy"
-    rbox("5000 s D6 t1", path)
+    rbox("2000 s D6 t1", path)
     for words in [["--verify"], ["--bounded", "--largest", 5], ["--curve", path.with_name("curve.csv")]]:
-        report = report_of(path, "--max-memory", "100M", "--threads", "1", *words)
-        keeps_memory(report, 100 * 2**20)
+        report = report_of(path, "--max-memory", "40M", "--threads", "1", *words)
+        keeps_memory(report, 40 * 2**20)
         assert report["status"] == "memory_limit" and report["points_outside"] == 0, report["status"]
 
 
@@ -98,7 +98,7 @@ def interrupt(path, seconds, *arguments, again_after=None):
 def test_ctrl_c_ends_the_run_with_what_there_is():
     folder = fresh_folder("interrupt")
     rbox(LONG_RUN, folder / "points.npy")
-    exit_code, output, _ = interrupt(folder / "points.npy", 1.5, "--report", "-", "--planes", folder / "planes.npy")
+    exit_code, output, _ = interrupt(folder / "points.npy", 0.8, "--report", "-", "--planes", folder / "planes.npy")
     report = json.loads(output)
     assert exit_code == 130 and report["status"] == "interrupted", (exit_code, report["status"])
     assert report["facets"] > 0 and report["points_outside"] == 0
@@ -125,7 +125,7 @@ def test_ctrl_c_while_reading():
 
 def test_nothing_half_written_stays_when_a_scheduler_ends_the_run():
     folder = fresh_folder("terminate")
-    rbox(LONG_RUN, folder / "points.npy")
+    rbox("200 s D9 t1", folder / "points.npy")  # writing takes seconds
     for command in (["hull", "--planes"], ["view", "-o"]):
         words = [PROGRAM, command[0], str(folder / "points.npy"), command[1], str(folder / "result.svg")]
         for number in (signal.SIGTERM, signal.SIGHUP):

@@ -5,8 +5,8 @@ import shutil
 import subprocess
 
 import numpy
-
 from program import PATIENCE, PROGRAM, fresh_folder, one_error_line, run, run_tests
+from qhull_facets import Facets, numbers, rows_of
 
 QHULL, QHALF = shutil.which("qhull"), shutil.which("qhalf")
 
@@ -38,36 +38,6 @@ def theirs(options, stdin):
     return shell(f"{QHULL} {options}", stdin)
 
 
-def numbers(line):
-    return [float(word) for word in line.split()]
-
-
-def rows_of(text, skip):
-    return [[int(word) for word in line.split()] for line in text.splitlines()[skip:]]
-
-
-class Facets:
-    """Facets by the sets of their vertices, from the formats of one run."""
-
-    def __init__(self, program, stdin, options=""):
-        def text(formats):
-            return program(f"{options} {formats}".strip(), stdin)
-
-        self.vertices = [frozenset(row[1:]) for row in rows_of(text("Fv"), 1)]
-        assert len(set(self.vertices)) == len(self.vertices)
-        self.planes = dict(zip(self.vertices, map(numbers, text("n").splitlines()[2:]), strict=True))
-        self.areas = dict(zip(self.vertices, map(float, text("Fa").splitlines()[1:]), strict=True))
-        self.neighbours = {
-            facet: {self.vertices[other] for other in row[1:]}
-            for facet, row in zip(self.vertices, rows_of(text("Fn"), 1), strict=True)
-        }
-        self.size = numbers(text("FS").splitlines()[1])
-        self.extreme = text("Fx")
-        self.counts = numbers(text("Fs").splitlines()[0])
-        self.of_points = [{self.vertices[facet] for facet in row[1:]} for row in rows_of(text("FN"), 1)]
-        self.centre = numbers(text("FV").splitlines()[1])
-
-
 def largest_difference(ours_by_key, theirs_by_key):
     assert set(ours_by_key) == set(theirs_by_key)
     return max(numpy.abs(numpy.subtract(ours_by_key[key], theirs_by_key[key])).max() for key in ours_by_key)
@@ -85,7 +55,7 @@ def compare(arguments, options=""):
     assert one.neighbours == other.neighbours, arguments
     sizes = max(abs(one.size[k] / other.size[k] - 1) for k in (1, 2))
     assert sizes <= 1e-10, (arguments, sizes)
-    assert sorted(one.extreme.split()) == sorted(other.extreme.split()), arguments
+    assert one.extreme == other.extreme, arguments
     assert one.counts[:9] == other.counts[:9], (arguments, one.counts, other.counts)
     assert one.of_points == other.of_points, arguments
     assert numpy.abs(numpy.subtract(one.centre, other.centre)).max() <= 1e-12 * scale
