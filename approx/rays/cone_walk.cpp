@@ -19,6 +19,12 @@ constexpr double kSmallestPivot = 1e-11;
 
 }  // namespace
 
+RowMatrix FramePoints::rows_of(std::span<const std::uint32_t> ids) const {
+  RowMatrix rows(static_cast<Index>(ids.size()), static_cast<Index>(rank));
+  for (std::size_t row = 0; row < ids.size(); ++row) rows.row(static_cast<Index>(row)) = point(ids[row]);
+  return rows;
+}
+
 void ConeWalk::start_ray(const Eigen::VectorXd& direction, std::uint32_t first_axis, double radius) {
   const Index rank = direction.size();
   direction_ = direction;
@@ -44,27 +50,38 @@ bool ConeWalk::start_ridge(const FramePoints& points, std::vector<std::uint32_t>
   place_ = place;
   turns_ = true;
   pivot_count_ = 0;
-  return refresh(points);
+  return refresh(points) && find_inverse(points);
+}
+
+void ConeWalk::start_ridge(const ConeWalk& begun, std::size_t place) {
+  *this = begun;
+  place_ = place;
 }
 
 bool ConeWalk::refresh(const FramePoints& points) {
   const auto rank = static_cast<Index>(points.rank);
-  RowMatrix rows(rank, rank);
-  for (Index k = 0; k < rank; ++k) rows.row(k) = points.point(basis_[static_cast<std::size_t>(k)]);
+  const RowMatrix rows = points.rows_of(basis_);
   const SquareFactors factors(rows);
-  inverse_ = factors.inverse().transpose();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rank);
   plane_ = factors.solve(ones);
   plane_ += factors.solve(ones - rows * plane_);  // one step of refinement
-  if (direction_.size() > 0) {
-    // rows^T weights = direction
-    weights_ = inverse_ * direction_;
-    weights_ += inverse_ * (direction_ - rows.transpose() * weights_);
-  } else {
-    weights_ = Eigen::VectorXd::Zero(rank);
-  }
+  determinant_ = factors.determinant();
   pivots_since_refresh_ = 0;
+  if (direction_.size() == 0) {  // most walks over a ridge end with this plane
+    weights_ = Eigen::VectorXd::Zero(rank);
+    inverse_.resize(0, 0);
+    return plane_.allFinite();
+  }
+  inverse_ = factors.inverse().transpose();
+  // rows^T weights = direction
+  weights_ = inverse_ * direction_;
+  weights_ += inverse_ * (direction_ - rows.transpose() * weights_);
   return plane_.allFinite() && inverse_.allFinite() && weights_.allFinite();
+}
+
+bool ConeWalk::find_inverse(const FramePoints& points) {
+  inverse_ = SquareFactors(points.rows_of(basis_)).inverse().transpose();
+  return inverse_.allFinite();
 }
 
 std::size_t ConeWalk::leaving_place(const Eigen::VectorXd& entering) const {
@@ -83,6 +100,7 @@ std::size_t ConeWalk::leaving_place(const Eigen::VectorXd& entering) const {
 }
 
 bool ConeWalk::pivot(const FramePoints& points, std::uint32_t id) {
+  if (inverse_.size() == 0 && !find_inverse(points)) return false;
   const auto point = points.point(id);
   const Eigen::VectorXd entering = inverse_ * point;
   const std::size_t place = leaving_place(entering);

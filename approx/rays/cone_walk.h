@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/linear/dense_views.h"
@@ -31,6 +32,7 @@ struct FramePoints {
   Eigen::Map<const Eigen::VectorXd> point(std::uint32_t id) const {
     return {row(id), static_cast<Eigen::Index>(rank)};
   }
+  RowMatrix rows_of(std::span<const std::uint32_t> ids) const;
 };
 
 class ConeWalk {
@@ -44,6 +46,8 @@ class ConeWalk {
   /// A walk from a facet through `basis` over the ridge without the point at `place`.
   /// False when the basis spans no plane.
   bool start_ridge(const FramePoints& points, std::vector<std::uint32_t> basis, std::size_t place);
+  /// From the facet of a walk that was started over another ridge of it, and has made no pivot yet.
+  void start_ridge(const ConeWalk& begun, std::size_t place);
 
   /// True before the first pivot of a walk over a ridge: then not a plane but `turn_direction` asks for the
   /// first point to take in.
@@ -53,11 +57,14 @@ class ConeWalk {
   /// Takes in `id`, which is above the plane (or furthest along the turn direction).
   /// False when rounding leaves no point to give up.
   bool pivot(const FramePoints& points, std::uint32_t id);
-  /// Computes inverse, plane and weights from the basis alone. False when it spans no plane.
+  /// Computes plane, determinant and weights from the basis alone, and the inverse where it is used. False
+  /// when the basis spans no plane.
   bool refresh(const FramePoints& points);
 
   const std::vector<std::uint32_t>& basis() const { return basis_; }
   const Eigen::VectorXd& plane() const { return plane_; }
+  /// Of the points of the basis, since the last `refresh`.
+  double determinant() const { return determinant_; }
   /// Ray: lambda, one for each point of the basis.
   const Eigen::VectorXd& weights() const { return weights_; }
   /// Ray: how far out it is, sum lambda = a.r; at most 1 as soon as r is proven to be in the hull.
@@ -66,10 +73,13 @@ class ConeWalk {
 
  private:
   std::size_t leaving_place(const Eigen::VectorXd& entering) const;
+  bool find_inverse(const FramePoints& points);
 
   std::vector<std::uint32_t> basis_;
-  RowMatrix inverse_;  // row j: c_j with x_i . c_j = 1 for i = j, else 0, over the points x_i of the basis
+  // Row j: c_j with x_i . c_j = 1 for i = j, else 0, over the points x_i of the basis. Empty: not known yet.
+  RowMatrix inverse_;
   Eigen::VectorXd plane_;
+  double determinant_ = 0.0;
   Eigen::VectorXd weights_;    // lambda
   Eigen::VectorXd direction_;  // of the ray; empty for a ridge
   std::size_t place_ = kAnyPlace;

@@ -108,7 +108,7 @@ std::vector<std::uint32_t> FacetSearch::enter(std::span<const WalkResult> walks)
   }
   for_each_block(first_walks.size(), 1, [&](std::size_t one, std::size_t) {
     const WalkResult& walk = walks[first_walks[one]];
-    RayFacet made = geometry_.make_facet(walk.on_plane, walk.basis);
+    RayFacet made = geometry_.make_facet(walk);
     const std::uint32_t id = ids[first_walks[one]];
     facets_[id].area = made.area;
     facets_[id].area_is_whole = made.area_is_whole;

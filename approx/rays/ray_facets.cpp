@@ -23,13 +23,6 @@ constexpr std::uint64_t kMaxSimplicesInPlane = 1'000'000;
 /// Ridges that are walked over, of a facet that has more.
 constexpr std::size_t kMaxRidges = 1024;
 
-RowMatrix rows_of(const FramePoints& points, const std::vector<std::uint32_t>& ids) {
-  RowMatrix rows(static_cast<Index>(ids.size()), static_cast<Index>(points.rank));
-  for (std::size_t row = 0; row < ids.size(); ++row)
-    rows.row(static_cast<Index>(row)) = points.point(ids[row]);
-  return rows;
-}
-
 }  // namespace
 
 /// The points of a facet in coordinates within its plane, and their hull.
@@ -81,7 +74,7 @@ FacetGeometry::InPlane FacetGeometry::project(const RayFacet& facet) const {
   const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), rank);
   // The first column of Q is along the normal, the others span the plane.
   const Eigen::MatrixXd axes = orthonormal_columns(plane, rank).rightCols(rank - 1);
-  const RowMatrix all = rows_of(points, facet.points);
+  const RowMatrix all = points.rows_of(facet.points);
   const RowMatrix within = (all.rowwise() - all.row(0)) * axes;
   InPlane result;
   result.coordinates.assign(within.data(), within.data() + within.size());
@@ -105,7 +98,7 @@ double FacetGeometry::area_of(double determinant, const std::vector<double>& pla
 }
 
 std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& points) const {
-  const RowMatrix rows = rows_of(shooter_.points(), points);
+  const RowMatrix rows = shooter_.points().rows_of(points);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.rows());
   const PivotedFactors factors(rows);
   Eigen::VectorXd plane = factors.solve(ones);
@@ -113,17 +106,15 @@ std::vector<double> FacetGeometry::fit_plane(const std::vector<std::uint32_t>& p
   return {plane.data(), plane.data() + plane.size()};
 }
 
-RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
-                                   const std::vector<std::uint32_t>& basis) const {
-  const FramePoints points = shooter_.points();
-  const std::size_t rank = points.rank;
+RayFacet FacetGeometry::make_facet(const WalkResult& walk) const {
+  const std::size_t rank = shooter_.points().rank;
   RayFacet facet;
-  facet.points = on_plane;
-  facet.vertices = on_plane;
-  facet.plane = fit_plane(on_plane);
-  const double simplex_determinant = std::abs(SquareFactors(rows_of(points, basis)).determinant());
-  facet.area = area_of(simplex_determinant, facet.plane);
-  if (on_plane.size() == rank) return facet;
+  facet.points = walk.on_plane;
+  facet.vertices = walk.on_plane;
+  const bool is_simplex = facet.points.size() == rank;
+  facet.plane = is_simplex ? walk.plane : fit_plane(facet.points);
+  facet.area = area_of(std::abs(walk.determinant), facet.plane);
+  if (is_simplex) return facet;
   if (rank - 1 > kMaxRank) {
     facet.area_is_whole = false;
     return facet;
@@ -132,7 +123,7 @@ RayFacet FacetGeometry::make_facet(const std::vector<std::uint32_t>& on_plane,
   if (within.hull.rank + 1 < rank) return facet;  // thinner than roundoff: the simplex is all there is
   facet.area_is_whole = within.hull.status == HullStatus::kComplete;
   facet.vertices.clear();
-  for (const PointId id : within.hull.vertices) facet.vertices.push_back(on_plane[id.value]);
+  for (const PointId id : within.hull.vertices) facet.vertices.push_back(facet.points[id.value]);
   // determinant of the facet's cone = (rank - 1)! area height, height = 1 / |a|
   const Eigen::Map<const Eigen::VectorXd> plane(facet.plane.data(), static_cast<Index>(rank));
   const double determinant = within.hull.volume * std::tgamma(static_cast<double>(rank)) / plane.norm();

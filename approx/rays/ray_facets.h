@@ -32,10 +32,9 @@ class FacetGeometry {
   /// The facet through all the points on a plane. Simplices that share a plane are one facet: its points'
   /// hull within the plane has the area.
   ///
-  /// basis  rank of the points, affinely independent.
-  /// Cost   O(rank^3) for rank points; else that of their hull in rank - 1 dimensions.
-  RayFacet make_facet(const std::vector<std::uint32_t>& on_plane,
-                      const std::vector<std::uint32_t>& basis) const;
+  /// walk   ended at the facet.
+  /// Cost   O(rank) for rank points; else that of their hull in rank - 1 dimensions.
+  RayFacet make_facet(const WalkResult& walk) const;
 
   /// a with a.y = 1 on the points, in the frame, by least squares.
   std::vector<double> fit_plane(const std::vector<std::uint32_t>& points) const;

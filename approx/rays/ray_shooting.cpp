@@ -151,7 +151,8 @@ void RayShooter::add_to_core(std::uint32_t id) {
   core_.append(points().row(id), id);
 }
 
-bool RayShooter::begin(const WalkTask& task, Walker& walker) const {
+/// `begun`: another walk over a ridge, that has made no pivot; null: none. It may be from the same facet.
+bool RayShooter::begin(const WalkTask& task, const Walker* begun, Walker& walker) const {
   walker.skip = task.skip;
   walker.asks_inside = task.asks_inside;
   walker.tries_to_separate = false;
@@ -159,7 +160,12 @@ bool RayShooter::begin(const WalkTask& task, Walker& walker) const {
   walker.result = WalkResult();
   walker.result.end = WalkEnd::kOpen;
   walker.additions.clear();
-  if (task.direction.empty()) return walker.walk.start_ridge(points(), task.basis, task.place);
+  if (task.direction.empty()) {
+    if (begun == nullptr || begun->walk.basis() != task.basis)
+      return walker.walk.start_ridge(points(), task.basis, task.place);
+    walker.walk.start_ridge(begun->walk, task.place);
+    return true;
+  }
   const Eigen::Map<const Eigen::VectorXd> direction(task.direction.data(), static_cast<Index>(frame_.rank));
   walker.walk.start_ray(direction, static_cast<std::uint32_t>(point_count_), inner_radius_);
   return true;
@@ -293,6 +299,7 @@ void RayShooter::end_at_facet(double above, Walker& walker) const {
   }
   std::sort(result.on_plane.begin(), result.on_plane.end());
   result.basis = walker.walk.basis();
+  result.determinant = walker.walk.determinant();
 }
 
 std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::stop_token stop,
@@ -317,10 +324,14 @@ std::vector<WalkResult> RayShooter::walk(std::span<const WalkTask> tasks, std::s
     std::vector<WalkCounters> group_counters(groups);
     for_each_block(groups, 1, [&](std::size_t group, std::size_t) {
       std::vector<Walker*> members;
-      for (std::size_t row = group; row < active.size(); row += groups) {
+      const Walker* begun = nullptr;
+      const std::size_t last = std::min((group + 1) * kWalksPerGroup, active.size());
+      for (std::size_t row = group * kWalksPerGroup; row < last; ++row) {  // those of a facet side by side
         Walker& walker = *active[row];
-        if (row >= last_old && !begin(tasks[walker.task], walker)) walker.state = Walker::State::kDone;
-        if (walker.state == Walker::State::kOnCore) members.push_back(&walker);
+        if (row >= last_old && !begin(tasks[walker.task], begun, walker)) walker.state = Walker::State::kDone;
+        if (walker.state != Walker::State::kOnCore) continue;
+        members.push_back(&walker);
+        if (walker.walk.turns()) begun = &walker;
       }
       walk_on_core(members, end, group_counters[group]);
       for (Walker* const walker : members) {

@@ -57,6 +57,7 @@ struct WalkResult {
   std::vector<double> plane;            ///< a with a.y = 1 at the basis, frame
   std::vector<std::uint32_t> on_plane;  ///< kFacet: ids of all points within `coplanar` of the plane,
                                         ///< ascending; of equal points the first
+  double determinant = 0.0;             ///< kFacet: of the basis, frame
   double coplanar = 0.0;                ///< [gauge]
   double gauge = 0.0;                   ///< ray: a.direction
   double level = 1.0;                   ///< kOutside: between a.y for all points y and the gauge,
@@ -105,7 +106,7 @@ class RayShooter {
   struct Walker;
   void fill_tiles(double near);
   std::vector<std::uint32_t> find_centre(const PointView& points);
-  bool begin(const WalkTask& task, Walker& walker) const;
+  bool begin(const WalkTask& task, const Walker* begun, Walker& walker) const;
   void walk_on_core(std::span<Walker*> walkers, const WorkEnd& end, WalkCounters& counters) const;
   bool ends_inside(Walker& walker) const;
   bool separates(Walker& walker, const DirectionQuery& answer) const;
