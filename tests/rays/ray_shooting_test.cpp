@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <span>
 
 #include "core/portable_random.h"
 #include "tests/hull/hull_support.h"
@@ -132,6 +133,30 @@ TEST(RayShootingExample, MeetsEqualPointsOnce) {
   for (const WalkResult& walk : shooter.walk(random_rays(4, 100, 1))) {
     ASSERT_EQ(walk.on_plane.size(), 4U);
     EXPECT_LT(walk.on_plane.back(), 40U);
+  }
+}
+
+/// Walks over the ridges of one facet begin with one inverse when they are taken together.
+TEST(RayShootingLaw, WalksThatBeginTogetherEndAsEachAlone) {
+  for (const std::size_t rank : {3U, 6U, 20U}) {
+    const PointSet set = family_points(PointFamily::kGaussian, 200, rank, rank);
+    RayShooter shooter(set.view());
+    std::vector<WalkTask> tasks;
+    for (const WalkResult& hit : shooter.walk(random_rays(rank, 5, 1))) {
+      ASSERT_EQ(hit.end, WalkEnd::kFacet);
+      tasks.push_back({.direction = random_rays(rank, 1, tasks.size())[0].direction});
+      for (std::size_t place = 0; place < rank; ++place)
+        tasks.push_back({.direction = {}, .basis = hit.basis, .place = place});
+    }
+    const std::vector<WalkResult> together = shooter.walk(tasks);
+    for (std::size_t row = 0; row < tasks.size(); ++row) {
+      const std::vector<WalkResult> alone = shooter.walk(std::span(tasks).subspan(row, 1));
+      EXPECT_EQ(together[row].end, WalkEnd::kFacet);
+      EXPECT_EQ(together[row].basis, alone[0].basis);
+      EXPECT_EQ(together[row].on_plane, alone[0].on_plane);
+      EXPECT_EQ(together[row].plane, alone[0].plane);
+      EXPECT_EQ(together[row].determinant, alone[0].determinant);
+    }
   }
 }
 
