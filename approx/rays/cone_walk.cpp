@@ -50,7 +50,7 @@ bool ConeWalk::start_ridge(const FramePoints& points, std::vector<std::uint32_t>
   place_ = place;
   turns_ = true;
   pivot_count_ = 0;
-  return refresh(points) && find_inverse(points);
+  return solve(points, true);
 }
 
 void ConeWalk::start_ridge(const ConeWalk& begun, std::size_t place) {
@@ -59,6 +59,11 @@ void ConeWalk::start_ridge(const ConeWalk& begun, std::size_t place) {
 }
 
 bool ConeWalk::refresh(const FramePoints& points) {
+  // Most walks over a ridge end with this plane: the inverse waits for a pivot.
+  return solve(points, direction_.size() > 0);
+}
+
+bool ConeWalk::solve(const FramePoints& points, bool with_inverse) {
   const auto rank = static_cast<Index>(points.rank);
   const RowMatrix rows = points.rows_of(basis_);
   const SquareFactors factors(rows);
@@ -67,15 +72,15 @@ bool ConeWalk::refresh(const FramePoints& points) {
   plane_ += factors.solve(ones - rows * plane_);  // one step of refinement
   determinant_ = factors.determinant();
   pivots_since_refresh_ = 0;
-  if (direction_.size() == 0) {  // most walks over a ridge end with this plane
+  inverse_.resize(0, 0);
+  if (with_inverse) inverse_ = factors.inverse().transpose();
+  if (direction_.size() > 0) {
+    // rows^T weights = direction
+    weights_ = inverse_ * direction_;
+    weights_ += inverse_ * (direction_ - rows.transpose() * weights_);
+  } else {
     weights_ = Eigen::VectorXd::Zero(rank);
-    inverse_.resize(0, 0);
-    return plane_.allFinite();
   }
-  inverse_ = factors.inverse().transpose();
-  // rows^T weights = direction
-  weights_ = inverse_ * direction_;
-  weights_ += inverse_ * (direction_ - rows.transpose() * weights_);
   return plane_.allFinite() && inverse_.allFinite() && weights_.allFinite();
 }
 

@@ -73,6 +73,7 @@ class ConeWalk {
 
  private:
   std::size_t leaving_place(const Eigen::VectorXd& entering) const;
+  bool solve(const FramePoints& points, bool with_inverse);
   bool find_inverse(const FramePoints& points);
 
   std::vector<std::uint32_t> basis_;
