@@ -8,6 +8,7 @@
 
 #include "approx/geometry/gradient_length.h"
 #include "approx/slabs/slab_growth.h"
+#include "core/complex/determinants.h"
 #include "core/complex/simplicial_complex.h"
 #include "core/dimension_switch.h"
 #include "core/machine/blocks.h"
@@ -23,38 +24,29 @@ constexpr std::size_t kLanes = 64;
 /// in this pass; that it is in a facet.
 constexpr std::uint8_t kPutOff = 0x80, kTaken = 0xFF;
 constexpr double kRowClasses = 127.0;
-constexpr std::size_t kRowsSolved = 1 << 14;
+constexpr std::size_t kRowsSolved = 1 << 10;  // at a time
 
-/// The plane through a simplex as a dual vertex, by elimination with partial pivoting. Returns |determinant|.
-template <std::size_t D>
-double solve_simplex(std::array<std::array<double, D>, D>& matrix, std::array<double, D>& plane) {
-  plane.fill(1.0);
-  double determinant = 1.0;
-  for (std::size_t c = 0; c < D; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t r = c + 1; r < D; ++r)
-      if (std::abs(matrix[r][c]) > std::abs(matrix[pivot][c])) pivot = r;
-    std::swap(matrix[c], matrix[pivot]);
-    std::swap(plane[c], plane[pivot]);
-    determinant *= matrix[c][c];
-    const double inverse = 1.0 / matrix[c][c];
-    for (std::size_t r = c + 1; r < D; ++r) {
-      const double factor = matrix[r][c] * inverse;
-      for (std::size_t k = c + 1; k < D; ++k) matrix[r][k] -= factor * matrix[c][k];
-      plane[r] -= factor * plane[c];
-    }
-  }
-  for (std::size_t c = D; c-- > 0;) {
-    for (std::size_t k = c + 1; k < D; ++k) plane[c] -= matrix[c][k] * plane[k];
-    plane[c] /= matrix[c][c];
-  }
-  return std::abs(determinant);
+/// Some rows with their planes, as dual vertices.
+struct SolvedRows {
+  std::vector<std::uint32_t> vertices;        // rows x rank
+  std::vector<double> planes;                 // rows x rank
+  std::vector<double> determinants, lengths;  // determinants > 0
+};
+
+/// lengths[i] = |R a| for each of the planes a, R being `factor`.
+void find_lengths(std::size_t rank, std::span<const double> factor, std::span<const double> planes,
+                  std::span<double> lengths) {
+  call_with_dimension<3, kMaxRank>(rank, [&](auto d) {
+    const GradientLength<d> length_of(factor);
+    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = length_of(planes.data() + i * d);
+  });
 }
 
 struct RowScratch {
   RowScratch(const WidthSpace& space, std::size_t vertex_count) : slabs(space), is_among(vertex_count) {}
   SlabScratch slabs;
   std::vector<std::uint8_t> is_among;
+  SolvedRows solved;
 };
 /// The slab of one lane's seed, and the rows that it holds and no facet has.
 struct RowLane {
@@ -67,25 +59,24 @@ struct RowLane {
   double surface = 0.0;  // of what became the facet
 };
 
-template <std::size_t D>
 class RowCover {
  public:
   RowCover(const SimplexRows& rows, const WidthSpace& space, const double* coordinates,
            std::span<const double> area_factor, double width, const CoverQuestion& gives_up)
       : rows_(rows),
         space_(space),
-        length_of_(space.gradient_factor()),
-        area_of_(area_factor),
+        area_factor_(area_factor),
+        rank_(rows.rank()),
         width_(width),
         gives_up_(gives_up),
         state_(rows.count()),
-        seeds_(D, kLanes),
+        seeds_(rank_, kLanes),
         grower_(seeds_, space, nullptr, false),
         scratch_of_thread_([&] { return RowScratch(space, rows.vertex_count()); }) {
-    vertices_.resize(rows.vertex_count() * D);
+    vertices_.reserve(rows.vertex_count() * rank_);
     for (std::uint32_t vertex = 0; vertex < rows.vertex_count(); ++vertex) {
-      const double* y = coordinates + std::size_t{space.point_of(vertex).value} * D;
-      std::copy_n(y, D, vertices_.data() + vertex * D);
+      const double* y = coordinates + std::size_t{space.point_of(vertex).value} * rank_;
+      vertices_.insert(vertices_.end(), y, y + rank_);
     }
   }
 
@@ -98,29 +89,35 @@ class RowCover {
   }
 
  private:
-  using Plane = std::array<double, D>;
-  /// |determinant| of a row's vertices.
-  double solve(std::uint32_t row, Plane& plane) const {
-    std::array<std::uint32_t, D> ids;
-    rows_.vertices_of(row, ids.data());
-    std::array<std::array<double, D>, D> matrix;
-    for (std::size_t k = 0; k < D; ++k) std::copy_n(vertices_.data() + ids[k] * D, D, matrix[k].data());
-    return solve_simplex<D>(matrix, plane);
+  /// row_at(i) for i < count; lengths by `factor`.
+  template <class RowAt>
+  void solve(std::size_t count, const RowAt& row_at, std::span<const double> factor,
+             SolvedRows& solved) const {
+    solved.vertices.resize(count * rank_);
+    solved.planes.resize(count * rank_);
+    solved.determinants.resize(count);
+    solved.lengths.resize(count);
+    for (std::size_t i = 0; i < count; ++i) rows_.vertices_of(row_at(i), solved.vertices.data() + i * rank_);
+    solve_planes(rank_, vertices_.data(), solved.vertices, solved.planes, solved.determinants);
+    for (double& determinant : solved.determinants) determinant = std::abs(determinant);
+    find_lengths(rank_, factor, solved.planes, solved.lengths);
   }
 
   void classify() {
     double longest = 0.0;
     for (std::uint32_t vertex = 0; vertex < rows_.vertex_count(); ++vertex) {
       double length_sq = 0.0;
-      for (std::size_t k = 0; k < D; ++k) length_sq += space_.row(vertex)[k] * space_.row(vertex)[k];
+      for (std::size_t k = 0; k < rank_; ++k) length_sq += space_.row(vertex)[k] * space_.row(vertex)[k];
       longest = std::max(longest, std::sqrt(length_sq));
     }
     std::vector<double> least((rows_.count() + kRowsSolved - 1) / kRowsSolved, HUGE_VAL);
     for_each_block(rows_.count(), kRowsSolved, [&](std::size_t begin, std::size_t end) {
-      Plane plane;
+      SolvedRows& solved = scratch_of_thread_.local().solved;
+      solve(
+          end - begin, [&](std::size_t i) { return static_cast<std::uint32_t>(begin + i); },
+          space_.gradient_factor(), solved);
       for (std::size_t row = begin; row < end; ++row) {
-        solve(static_cast<std::uint32_t>(row), plane);
-        const double distance = 1.0 / length_of_(plane.data());
+        const double distance = 1.0 / solved.lengths[row - begin];
         least[begin / kRowsSolved] = std::min(least[begin / kRowsSolved], distance);
         state_[row] =
             static_cast<std::uint8_t>(std::min(kRowClasses - 1.0, kRowClasses * distance / longest));
@@ -131,13 +128,13 @@ class RowCover {
 
   /// The slabs of seeds, one a lane.
   void find_slabs(std::span<RowLane* const> lanes) {
+    SolvedRows seeds;
+    solve(
+        lanes.size(), [&](std::size_t i) { return lanes[i]->seed; }, space_.gradient_factor(), seeds);
+    std::copy(seeds.planes.begin(), seeds.planes.end(), seeds_.planes.data());
     for (std::size_t i = 0; i < lanes.size(); ++i) {
-      std::array<std::uint32_t, D> ids;
-      rows_.vertices_of(lanes[i]->seed, ids.data());
-      for (std::size_t k = 0; k < D; ++k) seeds_.topology[i * 2 * D + k] = space_.point_of(ids[k]).value;
-      Plane plane;
-      solve(lanes[i]->seed, plane);
-      std::copy_n(plane.data(), D, seeds_.planes.data() + i * D);
+      for (std::size_t k = 0; k < rank_; ++k)
+        seeds_.topology[i * 2 * rank_ + k] = space_.point_of(seeds.vertices[i * rank_ + k]).value;
       lanes[i]->slab.seed = static_cast<std::uint32_t>(i);
     }
     for_each_block(lanes.size(), 1, [&](std::size_t i, std::size_t) {
@@ -215,8 +212,8 @@ class RowCover {
     taken_ += lane.held.size();
     lane.facet = static_cast<std::uint32_t>(facets_.count());
     facets_.sizes.push_back(static_cast<std::uint32_t>(lane.held.size()));
-    facets_.planes.resize(facets_.planes.size() + D);
-    facets_.area_vectors.resize(facets_.area_vectors.size() + D);
+    facets_.planes.resize(facets_.planes.size() + rank_);
+    facets_.area_vectors.resize(facets_.area_vectors.size() + rank_);
     facets_.determinants.push_back(0.0);
     return true;
   }
@@ -227,21 +224,19 @@ class RowCover {
       RowLane& lane = *lanes[i];
       lane.surface = 0.0;
       if (lane.facet == kNone) return;
-      std::vector<std::uint8_t>& is_among = scratch_of_thread_.local().is_among;
-      double* const plane_of_facet = facets_.planes.data() + std::size_t{lane.facet} * D;
-      double* const area = facets_.area_vectors.data() + std::size_t{lane.facet} * D;
+      RowScratch& scratch = scratch_of_thread_.local();
+      std::vector<std::uint8_t>& is_among = scratch.is_among;
+      double* const plane_of_facet = facets_.planes.data() + lane.facet * rank_;
+      double* const area = facets_.area_vectors.data() + lane.facet * rank_;
       space_.plane_of(lane.slab.plane.normal.data(), lane.slab.plane.height, plane_of_facet);
-      for (const std::uint32_t row : lane.held) {
-        Plane plane;
-        const double determinant = solve(row, plane);
-        facets_.determinants[lane.facet] += determinant;
-        lane.surface += determinant * area_of_(plane.data());
-        for (std::size_t k = 0; k < D; ++k) area[k] += determinant * plane[k];
-        if (lane.held.size() == 1) std::copy_n(plane.data(), D, plane_of_facet);
-        std::array<std::uint32_t, D> ids;
-        rows_.vertices_of(row, ids.data());
-        for (const std::uint32_t id : ids) is_among[id] = 1;
+      for (std::size_t begin = 0; begin < lane.held.size(); begin += kRowsSolved) {
+        const std::size_t count = std::min(kRowsSolved, lane.held.size() - begin);
+        solve(
+            count, [&](std::size_t r) { return lane.held[begin + r]; }, area_factor_, scratch.solved);
+        add_up(scratch.solved, lane, area);
+        for (const std::uint32_t vertex : scratch.solved.vertices) is_among[vertex] = 1;
       }
+      if (lane.held.size() == 1) std::copy_n(scratch.solved.planes.data(), rank_, plane_of_facet);
       std::erase_if(lane.slab.vertices, [&](std::uint32_t vertex) { return is_among[vertex] == 0; });
       for (const std::uint32_t vertex : lane.slab.vertices) is_among[vertex] = 0;
     });
@@ -252,9 +247,20 @@ class RowCover {
     }
   }
 
+  /// Determinants and areas of some simplices of the lane's facet.
+  void add_up(const SolvedRows& solved, RowLane& lane, double* area) {
+    for (std::size_t i = 0; i < solved.determinants.size(); ++i) {
+      const double determinant = solved.determinants[i];
+      facets_.determinants[lane.facet] += determinant;
+      lane.surface += determinant * solved.lengths[i];
+      for (std::size_t k = 0; k < rank_; ++k) area[k] += determinant * solved.planes[i * rank_ + k];
+    }
+  }
+
   const SimplexRows& rows_;
   const WidthSpace& space_;
-  GradientLength<D> length_of_, area_of_;
+  std::span<const double> area_factor_;
+  std::size_t rank_;
   double width_;
   const CoverQuestion& gives_up_;
   std::vector<std::uint8_t> state_;  // per row
@@ -271,9 +277,7 @@ class RowCover {
 std::optional<RowFacets> cover_rows(const SimplexRows& rows, const WidthSpace& space,
                                     const double* coordinates, std::span<const double> area_factor,
                                     double width, const CoverQuestion& gives_up) {
-  return call_with_dimension<3, kMaxRank>(rows.rank(), [&](auto d) {
-    return RowCover<d>(rows, space, coordinates, area_factor, width, gives_up).run();
-  });
+  return RowCover(rows, space, coordinates, area_factor, width, gives_up).run();
 }
 
 }  // namespace ndhull

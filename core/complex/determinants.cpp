@@ -302,6 +302,25 @@ bool find_determinants_of(const SimplicialComplex& complex, const double* points
   return all.is_closed();
 }
 
+template <std::size_t D>
+void solve_planes_of(const double* points, std::span<const std::uint32_t> vertices, std::span<double> planes,
+                     std::span<double> determinants) {
+  const double* corners[kLanes * D];
+  SolvedBlock<D> solved;
+  for (std::size_t begin = 0; begin < determinants.size(); begin += kLanes) {
+    const std::size_t used = std::min(kLanes, determinants.size() - begin);
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      for (std::size_t i = 0; i < D; ++i)
+        corners[lane * D + i] =
+            points + std::size_t{vertices[(begin + std::min(lane, used - 1)) * D + i]} * D;
+    solve_block<D, true>(corners, solved);
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      determinants[begin + lane] = solved.determinant[lane];
+      for (std::size_t k = 0; k < D; ++k) planes[(begin + lane) * D + k] = solved.dual[k * kLanes + lane];
+    }
+  }
+}
+
 void solve_simplices_any(SimplicialComplex& complex, const double* points,
                          std::span<const std::uint8_t> is_shifted, std::span<double> determinants) {
   call_with_dimension<2, kMaxRank>(
@@ -312,6 +331,12 @@ bool find_determinants_any(const SimplicialComplex& complex, const double* point
                            std::span<double> determinants, const BlockWork& also) {
   return call_with_dimension<2, kMaxRank>(
       complex.rank, [&](auto d) { return find_determinants_of<d>(complex, points, determinants, also); });
+}
+
+void solve_planes_any(std::size_t rank, const double* points, std::span<const std::uint32_t> vertices,
+                      std::span<double> planes, std::span<double> determinants) {
+  call_with_dimension<2, kMaxRank>(
+      rank, [&](auto d) { solve_planes_of<d>(points, vertices, planes, determinants); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -329,6 +354,11 @@ void solve_simplices(SimplicialComplex& complex, const double* points,
 bool find_determinants(const SimplicialComplex& complex, const double* points, std::span<double> determinants,
                        const BlockWork& also) {
   return NDHULL_BEST_OF(find_determinants_any)(complex, points, determinants, also);
+}
+
+void solve_planes(std::size_t rank, const double* points, std::span<const std::uint32_t> vertices,
+                  std::span<double> planes, std::span<double> determinants) {
+  NDHULL_BEST_OF(solve_planes_any)(rank, points, vertices, planes, determinants);
 }
 
 }  // namespace ndhull

@@ -39,4 +39,14 @@ void solve_simplices(SimplicialComplex& complex, const double* points,
 bool find_determinants(const SimplicialComplex& complex, const double* points, std::span<double> determinants,
                        const BlockWork& also);
 
+/// The planes through simplices that no complex has, as dual vertices, and their determinants.
+///
+/// Shapes  points: any number x rank. vertices: simplices x rank, rows of the points. planes: simplices x
+///         rank. determinants: one a simplex, of its vertex rows, +-rank! times the volume of its cone.
+/// Of a simplex without volume they are 0, infinite or NaN.
+/// Cost    O(rank^3) a simplex, eight simplices at a time, by the calling thread: Gaussian elimination with
+///         partial pivoting. What a simplex gets does not depend on those beside it.
+void solve_planes(std::size_t rank, const double* points, std::span<const std::uint32_t> vertices,
+                  std::span<double> planes, std::span<double> determinants);
+
 }  // namespace ndhull

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 #include <vector>
 
 #include "approx/facets/exact_facets.h"
@@ -43,6 +45,36 @@ TEST(Determinants, AreThoseThatAreSolved) {
     EXPECT_NEAR(sum / solved_sum, 1.0, 1e-13);
   }
   EXPECT_GT(free_rows, 0);
+}
+
+TEST(Determinants, PlanesOfSimplicesWithoutAComplexAreThoseOfGrowth) {
+  for (const char* words : {"200 s D3 t1", "150 s D6 t1", "60 s D8 t1", "30 s D13 t1"}) {
+    SCOPED_TRACE(words);
+    GrownSphere sphere(words, static_cast<std::uint32_t>(std::atoi(words)));
+    SimplicialComplex& complex = sphere.work.complex;
+    const std::size_t rank = complex.rank;
+    std::vector<double> in_complex(complex.row_count);
+    solve_simplices(complex, sphere.coordinates.data(), {}, in_complex);
+    std::vector<std::uint32_t> vertices, rows;
+    for (std::uint32_t row = 0; row < complex.row_count; ++row) {
+      if (!sphere.is_live(row)) continue;
+      rows.push_back(row);
+      for (const PointId id : complex.vertices(SimplexId{row})) vertices.push_back(id.value);
+    }
+    std::vector<double> planes(rows.size() * rank), determinants(rows.size());
+    solve_planes(rank, sphere.coordinates.data(), vertices, planes, determinants);
+    std::vector<double> alone(rank), of_one(1);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_NEAR(determinants[i] / in_complex[rows[i]], 1.0, 1e-10);
+      for (std::size_t k = 0; k < rank; ++k)
+        EXPECT_NEAR(planes[i * rank + k], complex.plane(SimplexId{rows[i]})[k], 1e-9);
+      solve_planes(rank, sphere.coordinates.data(), std::span(vertices).subspan(i * rank, rank), alone,
+                   of_one);
+      EXPECT_EQ(of_one[0], determinants[i]);
+      EXPECT_TRUE(
+          std::equal(alone.begin(), alone.end(), planes.begin() + static_cast<std::ptrdiff_t>(i * rank)));
+    }
+  }
 }
 
 TEST(Determinants, PlanesThatHaveLostDigitsAreTold) {
