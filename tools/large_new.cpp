@@ -1,7 +1,11 @@
 // The program's `new`: vectors of some hundred kilobytes and more come from the store of blocks, like the
 // engine's own tables. A vector of the allocator's goes back to the system when it is freed, and each page of
-// the next one is an interrupt: half a microsecond, ten on some virtual machines. The library leaves the
-// `new` of programs alone; one that computes hulls of hundreds of thousands of facets may link this file.
+// the next one is an interrupt: half a microsecond, ten on some virtual machines. Those too large for the
+// store get huge pages. The library leaves the `new` of programs alone; one that computes hulls of hundreds
+// of thousands of facets may link this file.
+#include <sys/mman.h>
+
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -19,10 +23,24 @@
 
 #ifndef NDHULL_HAS_SANITIZER
 
+namespace {
+
+/// Asks for huge pages. Advice: failure costs speed only.
+void* in_huge_pages(void* address, std::size_t bytes) {
+  constexpr std::uintptr_t kPage = 4096;
+  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(address) + kPage - 1) / kPage * kPage;
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(address) + bytes) / kPage * kPage;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  return address;
+}
+
+}  // namespace
+
 void* operator new(std::size_t bytes) {
   if (void* const block = ndhull::take_block(bytes)) return block;
   for (;;) {
-    if (void* const address = std::malloc(bytes == 0 ? 1 : bytes)) return address;
+    if (void* const address = std::malloc(bytes == 0 ? 1 : bytes))
+      return bytes > ndhull::kLargestBlock ? in_huge_pages(address, bytes) : address;
     const std::new_handler handler = std::get_new_handler();
     if (handler == nullptr) throw std::bad_alloc();
     handler();

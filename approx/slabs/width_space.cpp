@@ -2,7 +2,27 @@
 
 #include <cmath>
 
+#include "core/machine/blocks.h"
+
 namespace ndhull {
+
+std::vector<double> map_to_lengths(std::size_t rank, std::span<const double> gradient_factor,
+                                   const double* coordinates, std::span<const PointId> points) {
+  constexpr std::size_t kAtATime = 4096;
+  std::vector<double> rows(points.size() * rank);
+  for_each_block(points.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const double* y = coordinates + std::size_t{points[row].value} * rank;
+      double* z = rows.data() + row * rank;
+      for (std::size_t i = 0; i < rank; ++i) {
+        double rest = y[i];
+        for (std::size_t k = 0; k < i; ++k) rest -= gradient_factor[k * rank + i] * z[k];
+        z[i] = rest / gradient_factor[i * rank + i];
+      }
+    }
+  });
+  return rows;
+}
 
 WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, const double* coordinates,
                        std::size_t point_count, std::span<const PointId> vertices,
@@ -13,18 +33,9 @@ WidthSpace::WidthSpace(std::size_t rank, std::vector<double> gradient_factor, co
       row_of_point_(point_count, PointId::kNone) {
   point_of_row_.assign(vertices.begin(), vertices.end());
   point_of_row_.insert(point_of_row_.end(), others.begin(), others.end());
-  rows_.resize(point_of_row_.size() * rank);
-  for (std::size_t row = 0; row < point_of_row_.size(); ++row) {
-    const std::uint32_t id = point_of_row_[row].value;
-    row_of_point_[id] = static_cast<std::uint32_t>(row);
-    const double* y = coordinates + std::size_t{id} * rank;
-    double* z = rows_.data() + row * rank;
-    for (std::size_t i = 0; i < rank; ++i) {  // R^T z = y, R upper triangular
-      double rest = y[i];
-      for (std::size_t k = 0; k < i; ++k) rest -= factor_[k * rank + i] * z[k];
-      z[i] = rest / factor_[i * rank + i];
-    }
-  }
+  for (std::uint32_t row = 0; row < point_of_row_.size(); ++row)
+    row_of_point_[point_of_row_[row].value] = row;
+  rows_ = map_to_lengths(rank, factor_, coordinates, point_of_row_);
   table_ = SupportTable(rank, rows_);
   // On spheres the cones of fewer points are too wide for most to be left out. To make the tree takes as long
   // as products with all points for some hundred directions.

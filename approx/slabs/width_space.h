@@ -14,10 +14,17 @@
 
 namespace ndhull {
 
+/// Images of points y of the frame: z with R^T z = y (R: gradient_factor, rank x rank, upper triangular).
+///
+/// Shapes  coordinates: any number of rows x rank; points: some of these. Result: points x rank.
+/// Cost    O(rank^2) a point, shared by all threads.
+std::vector<double> map_to_lengths(std::size_t rank, std::span<const double> gradient_factor,
+                                   const double* coordinates, std::span<const PointId> points);
+
 /// Points that say how wide a facet is: the vertices of the complex and the points that reach out furthest.
 ///
-/// Shapes  a point y of the frame has the image z with R^T z = y (R: gradient_factor); the plane a of the
-///         frame has the normal R a, whose length is one over its distance from the frame's centre.
+/// Shapes  a point of the frame has the image that map_to_lengths says; the plane a of the frame has the
+///         normal R a, whose length is one over its distance from the frame's centre.
 class WidthSpace {
  public:
   /// vertices and others: points without repetition; coordinates: any number of rows x rank, in the frame;

@@ -71,11 +71,18 @@ void Approximation::make_space(bool with_left_out) {
     if (growth_.left_out().size() <= few) {
       for (const LocatedPoint& point : growth_.left_out()) furthest.push_back({0.0, point.point});
     } else {
+      constexpr std::size_t kAtATime = 4096;
+      const std::vector<LocatedPoint>& left_out = growth_.left_out();
+      std::vector<double> heights(left_out.size());
+      for_each_block(left_out.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          heights[i] = height_above(work, left_out[i].simplex.value, left_out[i].gauge);
+      });
       std::vector<Reach> of_row(complex.row_count, Reach{0.0, PointId{}});
-      for (const LocatedPoint& point : growth_.left_out()) {
-        const double height = height_above(work, point.simplex.value, point.gauge);
-        const Reach reach{std::isfinite(height) ? height : HUGE_VAL, point.point};
-        if (reach < of_row[point.simplex.value]) of_row[point.simplex.value] = reach;
+      for (std::size_t i = 0; i < left_out.size(); ++i) {
+        const Reach reach{std::isfinite(heights[i]) ? heights[i] : HUGE_VAL, left_out[i].point};
+        Reach& furthest_of_row = of_row[left_out[i].simplex.value];
+        if (reach < furthest_of_row) furthest_of_row = reach;
       }
       for (const Reach& reach : of_row)
         if (reach.point.valid()) furthest.push_back(reach);

@@ -13,8 +13,7 @@ const PointTree& Approximation::left_out_tree() {
     const GrowthWork& work = growth_.work();
     std::vector<PointId> left_out;
     for (const LocatedPoint& point : growth_.left_out()) left_out.push_back(point.point);
-    const WidthSpace all(work.rank, factor_, growth_.coordinates(), work.point_count, {}, left_out, 0);
-    left_out_tree_.emplace(work.rank, std::span<const double>(all.row(0), left_out.size() * work.rank));
+    left_out_tree_.emplace(work.rank, map_to_lengths(work.rank, factor_, growth_.coordinates(), left_out));
   }
   return *left_out_tree_;
 }

@@ -9,9 +9,14 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "core/dimension_switch.h"
 #include "core/linear/block_elimination-inl.h"
 #include "core/machine/blocks.h"
+#include "core/machine/prefetch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ndhull {
@@ -24,29 +29,35 @@ double dot(const double* a, const double* b) {
   return sum;
 }
 
-/// A few simplices from all over the hull, to start climbing from the one whose product is highest: one pass
-/// over their planes costs as much as one step and spares several.
+/// Some simplices from all over the hull, to start climbing from the one whose product is highest: a pass over
+/// their planes costs as much as a step or some, and spares several.
 template <std::size_t D>
 class StartingPlaces {
  public:
-  explicit StartingPlaces(const SimplicialComplex& complex) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      std::size_t row = i * complex.row_count / kCount;
+  explicit StartingPlaces(const SimplicialComplex& complex)
+      : count_(std::clamp(complex.row_count / kRowsOfPlace / kLeast * kLeast, kLeast, kMost)),
+        planes_(D * count_),
+        simplices_(count_) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::size_t row = i * complex.row_count / count_;
       while (complex.state[row] != SimplexState::kLive) row = row + 1 < complex.row_count ? row + 1 : 0;
       simplices_[i] = SimplexId{static_cast<std::uint32_t>(row)};
-      for (std::size_t k = 0; k < D; ++k) planes_[k * kCount + i] = complex.planes[row * D + k];
+      for (std::size_t k = 0; k < D; ++k) planes_[k * count_ + i] = complex.planes[row * D + k];
     }
   }
 
-  /// The place with the highest product, or `other` when its product is as high.
-  SimplexId nearest(const SimplicialComplex& complex, const double* y, SimplexId other) const {
+  std::size_t count() const { return count_; }
+  SimplexId simplex(std::size_t place) const { return simplices_[place]; }
+
+  /// The place with the highest product.
+  std::size_t nearest(const double* y) const {
     const Tag tag;
     const std::size_t lanes = hn::Lanes(tag);
     Lane best = hn::Set(tag, -HUGE_VAL), place_of_best = hn::Zero(tag), places = hn::Iota(tag, 0.0);
-    for (std::size_t i = 0; i < kCount; i += lanes) {
-      Lane product = hn::Mul(hn::LoadU(tag, planes_ + i), hn::Set(tag, y[0]));
+    for (std::size_t i = 0; i < count_; i += lanes) {
+      Lane product = hn::Mul(hn::LoadU(tag, planes_.data() + i), hn::Set(tag, y[0]));
       for (std::size_t k = 1; k < D; ++k) {
-        product = hn::MulAdd(hn::LoadU(tag, planes_ + k * kCount + i), hn::Set(tag, y[k]), product);
+        product = hn::MulAdd(hn::LoadU(tag, planes_.data() + k * count_ + i), hn::Set(tag, y[k]), product);
       }
       place_of_best = hn::IfThenElse(hn::Gt(product, best), places, place_of_best);
       best = hn::Max(best, product);
@@ -55,20 +66,39 @@ class StartingPlaces {
     HWY_ALIGN double products[HWY_MAX_BYTES / sizeof(double)], numbers[HWY_MAX_BYTES / sizeof(double)];
     hn::Store(best, tag, products);
     hn::Store(place_of_best, tag, numbers);
-    double highest = dot<D>(complex.plane(other).data(), y);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (products[lane] <= highest) continue;
-      highest = products[lane];
-      other = simplices_[static_cast<std::size_t>(numbers[lane])];
-    }
-    return other;
+    std::size_t lane = 0;
+    for (std::size_t other = 1; other < lanes; ++other)
+      if (products[other] > products[lane]) lane = other;
+    return static_cast<std::size_t>(numbers[lane]);
   }
 
  private:
-  static constexpr std::size_t kCount = 64;  // a multiple of all vectors' lanes
-  double planes_[D * kCount];
-  SimplexId simplices_[kCount];
+  // The least is a multiple of all vectors' lanes; the most has numbers of 16 bits.
+  static constexpr std::size_t kLeast = 64, kMost = 512, kRowsOfPlace = 1024;
+
+  std::size_t count_;
+  std::vector<double> planes_;  // D x count
+  std::vector<SimplexId> simplices_;
 };
+
+/// The queries, those nearest to the same place together: what they climb over is in cache then.
+template <std::size_t D>
+std::vector<std::uint32_t> order_by_place(const StartingPlaces<D>& places, const double* query_points,
+                                          std::span<const LocatedPoint> queries,
+                                          std::vector<std::uint16_t>& place_of) {
+  constexpr std::size_t kQueriesInBlock = 1024;
+  place_of.resize(queries.size());
+  for_each_block(queries.size(), kQueriesInBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      place_of[i] =
+          static_cast<std::uint16_t>(places.nearest(query_points + std::size_t{queries[i].point.value} * D));
+  });
+  std::vector<std::uint32_t> next(places.count()), order(queries.size());
+  for (const std::uint16_t place : place_of) ++next[place];
+  std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
+  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[place_of[i]]++] = i;
+  return order;
+}
 
 /// From `start`, to the neighbour with the highest plane product until none is higher.
 template <std::size_t D>
@@ -138,16 +168,19 @@ void prove_block(const SimplicialComplex& complex, const double* points, const H
   }
 }
 
-// Each query starts where the one before it ended, each block of queries at the first simplex. A vector of
-// those to prove is solved at a time.
+// Each query starts at its place or where the one before it ended, whichever is higher. A vector of those to
+// prove is solved at a time.
 template <std::size_t D>
 void locate_all(const SimplicialComplex& complex, const double* points, const HullBall& ball,
                 const double* query_points, bool proves_outside, std::span<LocatedPoint> located) {
-  constexpr std::size_t kQueriesInBlock = 512;
+  constexpr std::size_t kQueriesInBlock = 512, kAhead = 8;
   const std::size_t lanes = hn::Lanes(Tag());
-  SimplexId first{0};
-  while (complex.state[first.value] != SimplexState::kLive) ++first.value;  // growth leaves free rows
   const StartingPlaces<D> places(complex);
+  std::vector<std::uint16_t> place_of;
+  const std::vector<std::uint32_t> order = order_by_place(places, query_points, located, place_of);
+  const auto query_at = [&](std::size_t i) {
+    return query_points + std::size_t{located[order[i]].point.value} * D;
+  };
   for_each_block(located.size(), kQueriesInBlock, [&](std::size_t begin, std::size_t end) {
     LocatedPoint block[HWY_MAX_BYTES / sizeof(double)];
     std::size_t query_of[HWY_MAX_BYTES / sizeof(double)];
@@ -158,18 +191,23 @@ void locate_all(const SimplicialComplex& complex, const double* points, const Hu
       for (std::size_t lane = 0; lane < used; ++lane) located[query_of[lane]] = block[lane];
       used = 0;
     };
-    SimplexId start = first;
+    SimplexId start = places.simplex(place_of[order[begin]]);
     for (std::size_t i = begin; i < end; ++i) {
-      const double* y = query_points + std::size_t{located[i].point.value} * D;
-      start = climb<D>(complex, y, places.nearest(complex, y, start));
-      located[i].simplex = start;
+      if (i + 2 * kAhead < end) prefetch(&located[order[i + 2 * kAhead]]);
+      if (i + kAhead < end) prefetch(query_at(i + kAhead), D);
+      const double* y = query_at(i);
+      const SimplexId place = places.simplex(place_of[order[i]]);
+      if (dot<D>(complex.plane(place).data(), y) > dot<D>(complex.plane(start).data(), y)) start = place;
+      start = climb<D>(complex, y, start);
+      LocatedPoint& query = located[order[i]];
+      query.simplex = start;
       if (!proves_outside) {
         const double height = dot<D>(complex.plane(start).data(), y) - 1.0;
-        located[i].gauge = height;
+        query.gauge = height;
         if (height > 0.0) continue;
       }
-      block[used] = located[i];
-      query_of[used++] = i;
+      block[used] = query;
+      query_of[used++] = order[i];
       if (used == lanes) prove();
     }
     if (used > 0) prove();
