@@ -8,6 +8,7 @@
 // foreach_target first.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -57,7 +58,8 @@ class BundleSearch {
  private:
   static constexpr std::size_t kMost = 64, kLeast = 4;  // facets of a bundle
   static constexpr std::size_t kVectors = 2;            // directions that share what is loaded of a point
-  static constexpr std::size_t kMostPoints = 2048;
+  static constexpr std::size_t kMostPoints = 16384;
+  static constexpr std::size_t kLevels = 12;  // lengths of points
 
   HWY_INLINE std::size_t width() const { return D > 0 ? D : width_; }
   const double* normal_of(std::uint32_t facet) const { return normals_ + std::size_t{facet} * width(); }
@@ -83,10 +85,11 @@ class BundleSearch {
       for (std::size_t k = 0; k < width(); ++k) directions_[k * kMost + i] = 0.0f;
       point_thresholds_[i] = 1.0f;
     }
-    float least = 0.0f;
-    if (!find_axis(facets.size(), least)) return false;
+    if (!find_axis(facets.size())) return false;
     places_.clear();
-    search_.list_near(axis_.data(), least, kMostPoints, places_);
+    search_.list_near(
+        axis_.data(), least_of_level_[levels_ - 1], [&](float reach) { return least_of(reach); }, kMostPoints,
+        places_);
     if (places_.size() > kMostPoints) return false;
     copy_rows();
     count_near();
@@ -117,8 +120,9 @@ class BundleSearch {
 
   /// A point x no longer than r with n.x >= t, where n is turned from the axis by an angle a, has
   ///   axis.x >= t cos a - sqrt(r^2 - t^2) sin a, where t >= 0:
-  /// what reaches far along n has little of its length across it.
-  bool find_axis(std::size_t count, float& least) {
+  /// what reaches far along n has little of its length across it. Of points that are all about as long as t,
+  /// as on a sphere, that leaves those near the facets; where few are much longer it is found for several r.
+  bool find_axis(std::size_t count) {
     double length_sq = 0.0;
     for (std::size_t k = 0; k < width(); ++k) {
       double sum = 0.0;
@@ -128,21 +132,45 @@ class BundleSearch {
     }
     const double per_length = 1.0 / std::sqrt(length_sq);
     for (float& entry : axis_) entry = static_cast<float>(double{entry} * per_length);
-    const double reach_sq = tree_.point_reach() * tree_.point_reach();
-    double lowest = HUGE_VAL;
+    const double reach = tree_.point_reach();
+    const double first = *std::min_element(thresholds_, thresholds_ + count);
+    if (!(first >= 0.0)) return false;   // NaN, too
+    constexpr double kLevelStep = 0.04;  // of the longest: more levels leave hardly fewer points
+    const double span = std::max(reach - first, 0.0);
+    levels_ = std::clamp(static_cast<std::size_t>(span / (kLevelStep * reach)), std::size_t{1}, kLevels);
+    level_step_ = static_cast<float>(span / static_cast<double>(levels_)) * (1.0f + 0x1p-10f);
+    first_level_ = static_cast<float>(first);
+    double lowest[kLevels];
+    std::fill_n(lowest, kLevels, HUGE_VAL);
     for (std::size_t i = 0; i < count; ++i) {
       double chord_sq = 0.0;
       for (std::size_t k = 0; k < width(); ++k) {
         const double turn = double{directions_[k * kMost + i]} - double{axis_[k]};
         chord_sq += turn * turn;
       }
+      if (!(chord_sq <= 2.0)) return false;
       const double t{thresholds_[i]};
-      if (!(t >= 0.0 && chord_sq <= 2.0)) return false;  // NaN, too
       const double cosine = 1.0 - 0.5 * chord_sq, sine = std::sqrt(chord_sq * (1.0 - 0.25 * chord_sq));
-      lowest = std::min(lowest, t * cosine - std::sqrt(std::max(reach_sq - t * t, 0.0)) * sine);
+      for (std::size_t level = 0; level < levels_; ++level) {
+        const double r = length_of(level);
+        const double least = t * cosine - std::sqrt(std::max(r * r - t * t, 0.0)) * sine;
+        lowest[level] = std::min(lowest[level], least);
+      }
     }
-    least = static_cast<float>(lowest) - search_.margin();
+    for (std::size_t level = 0; level < levels_; ++level)
+      least_of_level_[level] = static_cast<float>(lowest[level]) - search_.margin();
     return true;
+  }
+
+  /// Of the longest points of a level; none is longer than those of the last.
+  double length_of(std::size_t level) const {
+    return double{first_level_} + static_cast<double>(level + 1) * double{level_step_};
+  }
+  /// For points no longer than `reach`.
+  float least_of(float reach) const {
+    std::size_t level = 0;
+    while (level + 1 < levels_ && !(reach <= length_of(level))) ++level;
+    return least_of_level_[level];
   }
 
   void copy_rows() {
@@ -194,6 +222,9 @@ class BundleSearch {
   std::vector<float> directions_;  // dimension x kMost
   std::vector<float> axis_;
   float thresholds_[kMost], point_thresholds_[kMost];
+  std::size_t levels_ = 1;
+  float first_level_ = 0.0f, level_step_ = 0.0f;
+  float least_of_level_[kLevels];
   std::uint32_t own_count_[kMost], near_count_[kMost];
   std::vector<std::uint32_t> places_;  // of points near the bundle
   std::vector<float> rows_;            // their coordinates, as the tree's groups have them

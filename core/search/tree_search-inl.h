@@ -97,18 +97,29 @@ class TreeSearch {
     });
   }
 
-  /// Lists the places of all points that reach so far along a direction, given as `direction` is, and hardly
-  /// more; not all where they are more than `most`.
-  void list_near(const float* direction, float least, std::size_t most, std::vector<std::uint32_t>& places) {
+  /// Lists the places of all points that reach as far along a direction, given as `direction` is, as
+  /// `least_of` says for points no longer than its argument, and hardly more; not all where they are more than
+  /// `most`. `lowest`: it is nowhere less.
+  template <class LeastOf>
+  void list_near(const float* direction, float lowest, const LeastOf& least_of, std::size_t most,
+                 std::vector<std::uint32_t>& places) {
     std::copy_n(direction, width(), scaled_.data());
-    threshold_ = least;
-    point_threshold_ = least;
-    const Enclosures& clusters = tree_.clusters();
+    threshold_ = lowest;
+    const Enclosures &clusters = tree_.clusters(), &groups = tree_.groups();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
-    search_clusters([&](std::size_t group) {
+    for (std::size_t cluster = 0; cluster < clusters.count; ++cluster) {
+      if (bounds_[cluster] < least_of(clusters.reaches[cluster])) continue;
+      const std::size_t begin = cluster * PointTree::kSize;
+      const std::size_t end = std::min(begin + PointTree::kSize, groups.count);
+      float bounds[PointTree::kSize], along[PointTree::kSize];
+      bound(groups, begin, begin + PointTree::kSize, bounds, along);
+      for (std::size_t group = begin; group < end; ++group) {
+        point_threshold_ = least_of(groups.reaches[group]);
+        if (bounds[group - begin] < point_threshold_) continue;
+        for_each_near(group, [&](std::size_t place) { places.push_back(static_cast<std::uint32_t>(place)); });
+      }
       if (places.size() > most) return;
-      for_each_near(group, [&](std::size_t place) { places.push_back(static_cast<std::uint32_t>(place)); });
-    });
+    }
   }
 
   /// The largest product of a direction with any of these points, or what is known. `rows`: their coordinates,

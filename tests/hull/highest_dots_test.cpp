@@ -119,6 +119,27 @@ TEST(HighestDotsLaw, DirectionsMayBeNearEachOther) {
   }
 }
 
+// How far points reach across a direction follows from their lengths, which are a few levels.
+TEST(HighestDotsLaw, PointsMayHaveVeryDifferentLengths) {
+  for (const std::size_t dimension : {2u, 3u, 5u, 8u}) {
+    for (const double spread : {1e-7, 1e-2, 0.2, 0.6}) {
+      for (const double longest : {1.01, 1.5, 30.0}) {
+        SCOPED_TRACE(std::to_string(dimension) + "-d, " + std::to_string(spread) + ", " +
+                     std::to_string(longest));
+        Products products = sphere(dimension, 3000, 150, 1.0, spread);
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<double> exponent(0.0, std::log(longest));
+        for (std::size_t row = 0; row < products.points.size(); row += dimension) {
+          const double length = std::exp(exponent(random));
+          for (std::size_t k = 0; k < dimension; ++k) products.points[row + k] *= length;
+        }
+        expect_all_products(products, 0);
+        expect_all_products(products, dimension);
+      }
+    }
+  }
+}
+
 // Points that single precision cannot tell from the plane through the own vertices.
 TEST(HighestDotsLaw, PointsAHairAboveThePlaneAreFound) {
   for (const std::size_t dimension : {2u, 5u, 8u}) {
