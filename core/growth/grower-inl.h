@@ -31,6 +31,7 @@
 #include "core/growth/growth_region.h"
 #include "core/growth/phase_clock.h"
 #include "core/growth/sharing_choice.h"
+#include "core/growth/staged_table.h"
 #include "core/machine/blocks.h"
 #include "core/machine/team.h"
 #include "core/scramble.h"
@@ -131,6 +132,7 @@ class Grower {
         books_(books),
         points_(work.points),
         most_rows_(most_rows(D)),
+        stages_{most_rows_, work.options.foreseen_rows},
         threads_(threads) {
     take_places(0);
   }
@@ -254,6 +256,7 @@ class Grower {
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
   const std::size_t most_rows_;
+  const TableStages stages_;
   std::size_t threads_;
   std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;

@@ -64,11 +64,11 @@ void Grower<D>::take_places(std::size_t kept) {
   topology_ = complex.topology.data();
   state_ = complex.state.data();
   head_ = complex.outside_head.data();
-  move_list(visible_, visible_count_, rows, most_rows_);
-  move_list(visible_gauge_, visible_count_, rows, most_rows_);
-  move_list(horizon_, horizon_count_, rows, most_rows_, D);
-  move_list(new_rows_, 0, rows, most_rows_);
-  move_and_clear(marks_, kept, rows);
+  move_list(visible_, stages_, visible_count_, rows);
+  move_list(visible_gauge_, stages_, visible_count_, rows);
+  move_list(horizon_, stages_, horizon_count_, rows, D);
+  move_list(new_rows_, stages_, 0, rows);
+  move_and_clear(marks_, stages_, kept, rows);
   for (std::size_t s = 0; s < shares_.size(); ++s) make_share(s, kept);
   touched_rows_ = cleared_rows_ = kept;
 }
@@ -91,13 +91,13 @@ template <std::size_t D>
 void Grower<D>::make_share(std::size_t s, std::size_t kept) {
   const std::size_t rows = rows_with_room();
   SearchShare& share = shares_[s];
-  if (s > 0) move_and_clear(share.marks, kept, rows);
-  move_list(share.visible, 0, rows, most_rows_);
-  move_list(share.gauge, 0, rows, most_rows_);
-  move_list(share.horizon, 0, rows, most_rows_, D);
+  if (s > 0) move_and_clear(share.marks, stages_, kept, rows);
+  move_list(share.visible, stages_, 0, rows);
+  move_list(share.gauge, stages_, 0, rows);
+  move_list(share.horizon, stages_, 0, rows, D);
   if (s < 2) return;
-  move_list(share.kept_visible, 0, rows, most_rows_);
-  move_list(share.kept_gauge, 0, rows, most_rows_);
+  move_list(share.kept_visible, stages_, 0, rows);
+  move_list(share.kept_gauge, stages_, 0, rows);
 }
 
 }  // namespace HWY_NAMESPACE

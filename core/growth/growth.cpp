@@ -200,13 +200,13 @@ std::size_t most_rows(std::size_t rank) {
 
 void make_room_for(GrowthWork& work, std::size_t rows) {
   SimplicialComplex& complex = work.complex;
-  const std::size_t most = most_rows(work.rank);
-  const std::size_t kept = complex.row_count, room = stage_rows(rows, most);
-  move_to_stage(complex.planes, kept, room, work.rank);
-  move_to_stage(complex.topology, kept, room, 2 * work.rank);
-  move_and_clear(complex.state, kept, room);
-  move_and_clear(complex.outside_head, kept, room);
-  move_list(work.free_rows, work.free_count, room, most);
+  const TableStages stages{most_rows(work.rank), work.options.foreseen_rows};
+  const std::size_t kept = complex.row_count, room = stages.rows_for(rows);
+  move_to_stage(complex.planes, stages, kept, room, work.rank);
+  move_to_stage(complex.topology, stages, kept, room, 2 * work.rank);
+  move_and_clear(complex.state, stages, kept, room);
+  move_and_clear(complex.outside_head, stages, kept, room);
+  move_list(work.free_rows, stages, work.free_count, room);
 }
 
 GrownHull take_grown(GrowthWork& work) {

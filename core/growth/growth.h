@@ -56,6 +56,9 @@ struct GrowthOptions {
   bool by_gauge = false;
   std::uint64_t max_rows = 0;         ///< 0: no limit on simplices
   std::uint64_t most_table_rows = 0;  ///< rows the tables may have, in use or free; 0: as many as fit
+  /// About so many rows the tables will have: then they have them from the beginning, in memory that other
+  /// tables had. 0: it is not known.
+  std::size_t foreseen_rows = 0;
   /// Asked every few thousand new simplices; anything but kNoOutsidePoints ends growth.
   std::function<GrowthStop(std::uint64_t points_left, double furthest)> poll;
 };

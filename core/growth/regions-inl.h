@@ -150,7 +150,7 @@ template <std::size_t D>
 void Grower<D>::make_regions() {
   regions_.resize(kRegions);
   for (GrowthRegion& region : regions_) {
-    move_list(region.free_rows, 0, rows_with_room(), most_rows_);
+    move_list(region.free_rows, stages_, 0, rows_with_room());
     in_regions_.emplace_back(new Grower(
         work_, 1, &region,
         {region.free_rows, region.free_count, region.row_count, region.points_outside, region.counters}));

@@ -25,11 +25,12 @@ template <std::size_t D>
 class VertexFigure {
  public:
   VertexFigure(std::span<const double> vertices, std::span<const double> normals, std::uint32_t vertex,
-               std::uint64_t most_table_rows)
+               std::uint64_t most_table_rows, std::size_t foreseen_rows)
       : vertices_(vertices),
         normal_(normals.data() + std::size_t{vertex} * D),
         vertex_(vertex),
-        most_table_rows_(most_table_rows) {}
+        most_table_rows_(most_table_rows),
+        table_rows_(foreseen_rows) {}
 
   /// The simplices whose first vertex this is go to found(), all are counted in `sums`. False when the figure
   /// has no full dimension, or decisions were too close.
@@ -45,11 +46,15 @@ class VertexFigure {
     work.point_count = view.rows;
     work.points = coordinates.data();
     work.options.most_table_rows = most_table_rows_;
+    work.options.foreseen_rows = table_rows_;
     start_growth(work, frame.simplex, {});
     if (grow(work) != GrowthStop::kNoOutsidePoints || !work.shifted_points.empty()) return false;
+    table_rows_ = work.complex.row_count;
     keep_first(work.complex, sums);
     return true;
   }
+  /// That growth needed.
+  std::size_t table_rows() const { return table_rows_; }
   /// Any number x (D - 1), as SimplexRows has them.
   std::span<const std::uint16_t> found() const { return found_; }
 
@@ -116,6 +121,7 @@ class VertexFigure {
   const double* normal_;
   std::uint32_t vertex_;
   std::uint64_t most_table_rows_;
+  std::size_t table_rows_;
   std::vector<double> points_;
   std::vector<std::uint16_t> found_;
 };
@@ -129,13 +135,18 @@ std::optional<SimplexRows> grow_all(std::span<const double> vertices, std::span<
   std::atomic<bool> has_ended = false;
   std::atomic<std::size_t> stars = 0;
   std::atomic<std::uint64_t> kept = 0;
+  // Of the star before, with some room. Other tables would be pages of the system's, star by star.
+  constexpr std::size_t kRoom = 8;  // a part
+  std::atomic<std::size_t> foreseen_rows = 0;
   for_each_block(count, 1, [&](std::size_t begin, std::size_t) {
     if (has_ended.load(std::memory_order_relaxed)) return;
     const auto vertex = static_cast<std::uint32_t>(begin);
     StarSums& star = sums[vertex];
-    VertexFigure<D> figure(vertices, normals, vertex, options.most_table_rows);
+    VertexFigure<D> figure(vertices, normals, vertex, options.most_table_rows,
+                           foreseen_rows.load(std::memory_order_relaxed));
     bool is_whole = false;
     run_alone([&](std::size_t, std::size_t) { is_whole = figure.grow_into(star); });
+    foreseen_rows.store(figure.table_rows() + figure.table_rows() / kRoom, std::memory_order_relaxed);
     const std::uint64_t at = kept.fetch_add(star.kept), all = at + star.kept;
     if (!is_whole || all > options.most_rows || (options.gives_up && options.gives_up(++stars, all))) {
       has_ended.store(true, std::memory_order_relaxed);
