@@ -134,7 +134,7 @@ class BundleSearch {
     for (float& entry : axis_) entry = static_cast<float>(double{entry} * per_length);
     const double reach = tree_.point_reach();
     const double first = *std::min_element(thresholds_, thresholds_ + count);
-    if (!(first >= 0.0)) return false;   // NaN, too
+    if (!(first >= 0.0)) return false;
     constexpr double kLevelStep = 0.04;  // of the longest: more levels leave hardly fewer points
     const double span = std::max(reach - first, 0.0);
     levels_ = std::clamp(static_cast<std::size_t>(span / (kLevelStep * reach)), std::size_t{1}, kLevels);
@@ -148,8 +148,8 @@ class BundleSearch {
         const double turn = double{directions_[k * kMost + i]} - double{axis_[k]};
         chord_sq += turn * turn;
       }
-      if (!(chord_sq <= 2.0)) return false;
       const double t{thresholds_[i]};
+      if (!(t >= 0.0 && chord_sq <= 2.0)) return false;  // NaN, too
       const double cosine = 1.0 - 0.5 * chord_sq, sine = std::sqrt(chord_sq * (1.0 - 0.25 * chord_sq));
       for (std::size_t level = 0; level < levels_; ++level) {
         const double r = length_of(level);
