@@ -32,6 +32,7 @@ struct AllOptions {
   std::size_t count = 80;
   std::vector<std::size_t> scaling_counts{250, 500, 1000, 2000};
   std::string scaling_dimensions = "4-6";
+  std::uint64_t joggle_runs = 500;
   double max_seconds = 20.0;
   std::vector<std::string> parts;  // of kPartNames; empty: all
   bool resume = false;
@@ -124,7 +125,7 @@ std::vector<RunRecord> run_rays(const AllOptions& options) {
 
 std::vector<RunRecord> run_joggle(const AllOptions& options) {
   JoggleBenchOptions joggle;
-  joggle.runs = 500;
+  joggle.runs = options.joggle_runs;
   joggle.measuring = measuring(options, "joggle", 3.0);
   return measure_with(joggle_plan(joggle), joggle.measuring);
 }
@@ -169,6 +170,9 @@ void add_all_command(CLI::App& app) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--scaling-dimensions", options->scaling_dimensions, "of these sets")
+      ->capture_default_str();
+  command->add_option("--joggle-runs", options->joggle_runs, "joggles of each size")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
       ->add_option("--max-seconds", options->max_seconds,

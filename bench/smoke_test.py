@@ -184,7 +184,7 @@ def test_all_makes_a_folder_with_the_report():
         assert "<svg" in (folder / "report.html").read_text(encoding="utf-8")
         # A part more, and what is there stays and is reported on.
         before = records_of(folder / "sweep.jsonl")
-        run(*words[:-1], "sweep,joggle", "--resume")
+        run(*words[:-1], "sweep,joggle", "--resume", "--joggle-runs", "20")
         assert records_of(folder / "sweep.jsonl") == before and len(records_of(folder / "joggle.jsonl")) == 44
         assert "### Joggled unit cube" in (folder / "report.md").read_text(encoding="utf-8")
     assert "### Measured and expected numbers of facets" in (folder / "report.md").read_text(encoding="utf-8")

@@ -121,8 +121,8 @@ TEST(HighestDotsLaw, DirectionsMayBeNearEachOther) {
 
 // How far points reach across a direction follows from their lengths, which are a few levels.
 TEST(HighestDotsLaw, PointsMayHaveVeryDifferentLengths) {
-  for (const std::size_t dimension : {2u, 3u, 5u, 8u}) {
-    for (const double spread : {1e-7, 1e-2, 0.2, 0.6}) {
+  for (const std::size_t dimension : {2u, 5u, 8u}) {
+    for (const double spread : {1e-2, 0.2}) {
       for (const double longest : {1.01, 1.5, 30.0}) {
         SCOPED_TRACE(std::to_string(dimension) + "-d, " + std::to_string(spread) + ", " +
                      std::to_string(longest));
