@@ -116,7 +116,7 @@ void CertifiedGrowth::tell(Phase phase, std::uint64_t points_left, double furthe
 
 /// Coordinates, outside sets, flags, and what a proof lists of each point.
 std::uint64_t CertifiedGrowth::point_bytes() const {
-  return coordinates_.capacity() * 8 + points_.rows * (17 + 2 + sizeof(LocatedPoint));
+  return coordinates_.capacity() * 8 + points_.rows * (17 + 2 + 6 + sizeof(LocatedPoint));
 }
 
 void CertifiedGrowth::start() {

@@ -12,7 +12,7 @@ namespace ndhull {
 ///
 /// Shapes  query_points: row located[i].point is query i. located: point is given, simplex, gauge and slack
 ///         are found.
-/// Cost    O(rank^2) a step of the climb, O(rank^3) a proof.
+/// Cost    a product with 64 to 512 planes, O(rank^2) a step of the climb, O(rank^3) a proof; 6 bytes a query.
 void locate_in_cones(const SimplicialComplex& complex, const double* points, const HullBall& ball,
                      const double* query_points, bool proves_outside, std::span<LocatedPoint> located);
 
