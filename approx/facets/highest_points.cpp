@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/counting_order.h"
 #include "core/machine/blocks.h"
 #include "core/search/bundle_search.h"
 #include "core/search/furthest_points.h"
@@ -46,7 +47,8 @@ class BundledFacets {
                  heights_.highest.subspan(begin, count));
   }
 
-  /// The facets [begin, end), counted from the first. Their places stand where the highest products will.
+  /// The facets [begin, end), counted from the first, by the first of their vertices in the tree. Its place
+  /// stands where the highest product will.
   std::vector<std::uint32_t> order_by_vertex(std::size_t begin, std::size_t end) const {
     constexpr std::size_t kFacetsInBlock = 4096;
     const std::span<double> places = heights_.highest.subspan(begin, end - begin);
@@ -58,7 +60,7 @@ class BundledFacets {
         places[i] = least;
       }
     });
-    return order_by_place(places, place_of_row_.size());
+    return counting_order<double>(places, place_of_row_.size());
   }
 
   SimplexId first_simplex_of(std::size_t facet) const {

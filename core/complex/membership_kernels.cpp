@@ -10,9 +10,9 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
+#include "core/counting_order.h"
 #include "core/dimension_switch.h"
 #include "core/linear/block_elimination-inl.h"
 #include "core/machine/blocks.h"
@@ -81,23 +81,18 @@ class StartingPlaces {
   std::vector<SimplexId> simplices_;
 };
 
-/// The queries, those nearest to the same place together: what they climb over is in cache then.
+/// Of each query the place nearest to it.
 template <std::size_t D>
-std::vector<std::uint32_t> order_by_place(const StartingPlaces<D>& places, const double* query_points,
-                                          std::span<const LocatedPoint> queries,
-                                          std::vector<std::uint16_t>& place_of) {
+std::vector<std::uint16_t> nearest_places(const StartingPlaces<D>& places, const double* query_points,
+                                          std::span<const LocatedPoint> queries) {
   constexpr std::size_t kQueriesInBlock = 1024;
-  place_of.resize(queries.size());
+  std::vector<std::uint16_t> place_of(queries.size());
   for_each_block(queries.size(), kQueriesInBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       place_of[i] =
           static_cast<std::uint16_t>(places.nearest(query_points + std::size_t{queries[i].point.value} * D));
   });
-  std::vector<std::uint32_t> next(places.count()), order(queries.size());
-  for (const std::uint16_t place : place_of) ++next[place];
-  std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
-  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[place_of[i]]++] = i;
-  return order;
+  return place_of;
 }
 
 /// From `start`, to the neighbour with the highest plane product until none is higher.
@@ -176,8 +171,9 @@ void locate_all(const SimplicialComplex& complex, const double* points, const Hu
   constexpr std::size_t kQueriesInBlock = 512, kAhead = 8;
   const std::size_t lanes = hn::Lanes(Tag());
   const StartingPlaces<D> places(complex);
-  std::vector<std::uint16_t> place_of;
-  const std::vector<std::uint32_t> order = order_by_place(places, query_points, located, place_of);
+  // Those nearest to the same place together: what they climb over is in cache then.
+  const std::vector<std::uint16_t> place_of = nearest_places<D>(places, query_points, located);
+  const std::vector<std::uint32_t> order = counting_order<std::uint16_t>(place_of, places.count());
   const auto query_at = [&](std::size_t i) {
     return query_points + std::size_t{located[order[i]].point.value} * D;
   };

@@ -9,7 +9,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "core/machine/blocks.h"
@@ -243,15 +242,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ndhull {
-
-std::vector<std::uint32_t> order_by_place(std::span<const double> place_of_facet, std::size_t places) {
-  std::vector<std::uint32_t> next(places + 1), order(place_of_facet.size());
-  for (const double place : place_of_facet) ++next[static_cast<std::size_t>(place) + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (std::uint32_t facet = 0; facet < order.size(); ++facet)
-    order[next[static_cast<std::size_t>(place_of_facet[facet])]++] = facet;
-  return order;
-}
 
 void highest_dots(const PointTree& tree, std::span<const double> normals,
                   std::span<const std::uint32_t> order, const OwnDots& own, std::span<double> largest) {

@@ -19,12 +19,6 @@
 
 namespace ndhull {
 
-/// The numbers 0, 1, ... of facets in the order of their places: of each that of a vertex in a tree of `places`
-/// points, best the first of all of its vertices. Facets with the same place keep their order. Places are
-/// doubles, so that they can stand where a number of each facet will be.
-/// Cost  O(facets + places), one thread.
-std::vector<std::uint32_t> order_by_place(std::span<const double> place_of_facet, std::size_t places);
-
 /// Largest dot product of each normal with any of the points.
 ///
 /// Shapes  normals: facets x dimension; order: each facet once, those with near normals one after the other;

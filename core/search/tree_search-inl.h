@@ -105,20 +105,15 @@ class TreeSearch {
                  std::vector<std::uint32_t>& places) {
     std::copy_n(direction, width(), scaled_.data());
     threshold_ = lowest;
-    const Enclosures &clusters = tree_.clusters(), &groups = tree_.groups();
+    const Enclosures& clusters = tree_.clusters();
     bound(clusters, 0, clusters.stride, bounds_.data(), along_.data());
-    for (std::size_t cluster = 0; cluster < clusters.count; ++cluster) {
-      if (bounds_[cluster] < least_of(clusters.reaches[cluster])) continue;
-      const std::size_t begin = cluster * PointTree::kSize;
-      const std::size_t end = std::min(begin + PointTree::kSize, groups.count);
-      float bounds[PointTree::kSize], along[PointTree::kSize];
-      bound(groups, begin, begin + PointTree::kSize, bounds, along);
-      for (std::size_t group = begin; group < end; ++group) {
-        point_threshold_ = least_of(groups.reaches[group]);
-        if (bounds[group - begin] < point_threshold_) continue;
+    for (std::size_t cluster = 0; cluster < clusters.count && places.size() <= most; ++cluster) {
+      threshold_ = least_of(clusters.reaches[cluster]);
+      if (bounds_[cluster] < threshold_) continue;
+      search_cluster(cluster, [&](std::size_t group) {
+        point_threshold_ = least_of(tree_.groups().reaches[group]);
         for_each_near(group, [&](std::size_t place) { places.push_back(static_cast<std::uint32_t>(place)); });
-      }
-      if (places.size() > most) return;
+      });
     }
   }
 
