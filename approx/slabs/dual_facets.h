@@ -28,7 +28,7 @@ struct DualFacets {
   std::vector<std::uint32_t> seeds;      ///< per facet: one of its rows of the complex
   std::vector<std::uint32_t> own_plane;  ///< per facet: which of own_planes; kNone: its seed's
   std::vector<double> own_planes;        ///< planes x rank
-  std::size_t unfit = 0;                 ///< simplices that are facets alone, and thicker than the width
+  std::vector<std::uint32_t> unfit;      ///< simplices that are facets alone, and thicker than the width
   /// Every plane is further from the frame's centre than the width. Where all fit they bound a region: along
   /// any direction the hull ends in a simplex of some facet; if that facet's plane did not face the
   /// direction, a point of the simplex would be as deep below it as the centre.

@@ -46,12 +46,6 @@ constexpr std::size_t kRowsPrepared = 1 << 13;
 /// rows further ahead are on their way themselves where slabs are small, and to read them would be to wait.
 constexpr std::size_t kAhead = 1, kSeedsAhead = 12, kPlanesAhead = 6, kOpenAhead = 3;
 
-/// How many simplices slabs hold: the mean over simplices, which few large slabs can rule, and what all
-/// simplices are divided by to get the number of slabs.
-struct SlabSizes {
-  double mean = 1.0, typical = 1.0;
-};
-
 template <std::size_t D>
 class Partitioner {
  public:
@@ -264,7 +258,7 @@ class Partitioner {
     vertex_count_ = begin.vertices;
   }
 
-  void add_facet(Ends begin, const SeedPlane<D>& own) {
+  void add_facet(Ends begin, const SeedPlane<D>& own, bool fits) {
     facets_.seeds.push_back(members_[begin.members].value);
     facets_.begin.push_back(static_cast<std::uint32_t>(begin.members));
     facets_.vertex_begin.push_back(static_cast<std::uint32_t>(begin.vertices));
@@ -273,7 +267,7 @@ class Partitioner {
                                               : kNone);
     if (own.is_fitted)
       facets_.own_planes.insert(facets_.own_planes.end(), own.plane.begin(), own.plane.end());
-    facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
+    if (fits) facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
     facets_.tops.push_back(own.top);
     facets_.lengths.push_back(static_cast<float>(own.length));
   }
@@ -341,8 +335,8 @@ class Partitioner {
       members_[count_++] = SimplexId{seed};
       facets_.marks.set_taken(seed, true);
     }
-    add_facet(begin, own);
-    facets_.unfit += fits ? 0u : 1u;
+    add_facet(begin, own, fits);
+    if (!fits) facets_.unfit.push_back(seed);
     return true;
   }
 
@@ -366,20 +360,22 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,
                                                double width, const FindDeterminants& find_determinants,
-                                               FacetLimit* limit) {
+                                               PartitionTask& task) {
   if (space.point_count() > SimplexMarks::kMostPoints) return std::nullopt;
   return call_with_dimension<2, kMaxRank>(complex.rank, [&](auto d) -> std::optional<DualFacets> {
     Partitioner<d> partitioner(complex, space, coordinates, gradient_factor, above, width);
-    const SlabSizes sizes = partitioner.slab_sizes();
+    const SlabSizes sizes = task.sizes ? *task.sizes : partitioner.slab_sizes();
     if (partitioner.is_worth_choosing(sizes)) return std::nullopt;
-    if (limit) limit->expected = partitioner.expected_slabs(sizes);
-    if (limit && limit->is_exceeded()) return std::nullopt;
+    task.expected_facets = partitioner.expected_slabs(sizes);
+    if (task.has_too_many()) return std::nullopt;
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
     if (walks) partitioner.choose_walks();
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
-    // One thread finds determinants, which will be wanted, while it has the rows near.
-    const bool finds_first = walks && find_determinants && !has_more_threads();
-    if (finds_first) {
+    // One thread finds determinants, which will be wanted, while it has the rows near; later, where points that
+    // were left out may have to be taken in before. Another thread has the time.
+    const bool finds_beside = find_determinants && has_more_threads();
+    const bool finds_first = find_determinants && !finds_beside && above == PointsAbove::kNoPoint;
+    if (finds_first && walks) {
       find_determinants(prepare);
     } else {
       for_each_block(complex.row_count, kRowsPrepared, prepare);
@@ -389,10 +385,14 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
       return partition_into_thin_slabs(space, coordinates, gradient_factor, above, width, grown,
                                        find_determinants, partitioner.take_table());
     std::vector<std::uint32_t> seeds = partitioner.seeds_by_distance();
-    if (finds_first || !find_determinants) return partitioner.run(sizes, std::move(seeds));
-    DualFacets facets;  // one thread's work: another one finds the determinants
-    do_beside([&] { facets = partitioner.run(sizes, std::move(seeds)); },
-              [&] { find_determinants([](std::size_t, std::size_t) {}); });
+    DualFacets facets;
+    const auto run = [&] { facets = partitioner.run(sizes, std::move(seeds)); };
+    if (finds_beside) {
+      do_beside(run, [&] { find_determinants([](std::size_t, std::size_t) {}); });
+    } else {
+      run();
+    }
+    task.sizes = {sizes.mean, double{facets.begin.back()} / static_cast<double>(facets.count())};
     return facets;
   });
 }

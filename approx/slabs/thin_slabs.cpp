@@ -302,7 +302,7 @@ class ThinPartitioner {
         continue;
       }
       SeedPlane<D> own = planes_.own(row);
-      facets_.unfit += planes_.raise_above_points(row, own) ? 0u : 1u;
+      if (!planes_.raise_above_points(row, own)) facets_.unfit.push_back(row);
       facets_.are_far_from_centre = facets_.are_far_from_centre && own.least > 0.0;
       add_facet(row, own.is_fitted ? &own.plane : nullptr);
     }

@@ -142,29 +142,41 @@ std::span<const double> Approximation::find_determinants(const BlockWork& also) 
   return {determinants_.data(), complex.row_count};
 }
 
+PointsAbove Approximation::points_above() const {
+  if (!growth_.work().shifted_points.empty()) return PointsAbove::kAny;
+  return is_convex() ? PointsAbove::kNoPoint : PointsAbove::kLeftOut;
+}
+
 /// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
-/// overlapping ones are better. For a number of facets determinants are not wanted yet.
-std::optional<DualFacets> Approximation::find_disjoint_slabs(double width, FacetLimit* limit_of_count) {
-  const SimplicialComplex& complex = growth_.work().complex;
-  const double* coordinates = growth_.coordinates();
-  const PointsAbove above = !growth_.work().shifted_points.empty() ? PointsAbove::kAny
-                            : is_convex()                          ? PointsAbove::kNoPoint
-                                                                   : PointsAbove::kLeftOut;
+/// overlapping ones are better.
+std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
+  PartitionTask task;
+  std::optional<DualFacets> facets = find_single_slabs(width, task);
+  if (facets) join_small_slabs(width, *facets);
+  return facets;
+}
+
+/// Before any have joined.
+std::optional<DualFacets> Approximation::find_single_slabs(double width, PartitionTask& task) {
+  const PointsAbove above = points_above();
   FindDeterminants find;
-  if (above != PointsAbove::kAny && limit_of_count == nullptr)
+  if (above != PointsAbove::kAny && finds_determinants_)
     find = [this](const BlockWork& also) { return find_determinants(also); };
-  std::optional<DualFacets> facets =
-      partition_into_slabs(complex, *space_, coordinates, factor_, above, width, find, limit_of_count);
-  if (!facets || !facets->may_join()) return facets;
-  const std::size_t simplices = facets->begin.back();
-  const std::size_t mean = simplices / facets->count();
+  return partition_into_slabs(growth_.work().complex, *space_, growth_.coordinates(), factor_, above, width,
+                              find, task);
+}
+
+void Approximation::join_small_slabs(double width, DualFacets& facets) const {
+  if (!facets.may_join()) return;
+  const std::size_t simplices = facets.begin.back();
+  const std::size_t mean = simplices / facets.count();
   // The exact hull of shifted points takes longer, since coplanar facets are looked for: so may this.
-  const bool has_time = above == PointsAbove::kAny && mean >= kLargeOfShifted;
+  const bool has_time = points_above() == PointsAbove::kAny && mean >= kLargeOfShifted;
   std::size_t most = has_time ? mean : std::max<std::size_t>(1, mean / kPartOfMean);
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
-  if (is_degenerate() || has_few_small(facets->count(), simplices)) most = simplices;
-  join_along_segments(complex, coordinates, factor_, space_->point_count(), width, most, *facets);
-  return facets;
+  if (is_degenerate() || has_few_small(facets.count(), simplices)) most = simplices;
+  join_along_segments(growth_.work().complex, growth_.coordinates(), factor_, space_->point_count(), width,
+                      most, facets);
 }
 
 /// Where the points left out are, to a twentieth of what growth left out.

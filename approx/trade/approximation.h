@@ -59,11 +59,14 @@ class Approximation {
   bool keeps_hull(const Covering& covering) const;
   static bool has_few_small(std::size_t facets, std::size_t simplices);
   void join_neighbours(Covering& covering, double width) const;
-  std::optional<DualFacets> find_disjoint_slabs(double width, FacetLimit* limit_of_count = nullptr);
+  std::optional<DualFacets> find_disjoint_slabs(double width);
+  std::optional<DualFacets> find_single_slabs(double width, PartitionTask& task);
+  void join_small_slabs(double width, DualFacets& facets) const;
   bool look_further(double width, Covering& covering);
 
   TrueWidths true_widths(const Covering& covering);
   std::vector<FurthestPoint> furthest_above(std::span<const std::uint32_t> simplices);
+  std::vector<LocatedPoint> far_above(std::span<const std::uint32_t> simplices);
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
 
   void locate_left_out(double outside_width);
@@ -71,6 +74,7 @@ class Approximation {
   void take_in_alone(std::span<const PointId> left_out);
 
   bool is_thorough() const { return accuracy_.effort == Effort::kThorough; }
+  PointsAbove points_above() const;
   bool is_degenerate() const { return shares_planes(growth_.work(), growth_.coordinates()); }
   /// No point of the space is above any simplex's plane.
   bool is_convex() const {
@@ -90,15 +94,16 @@ class Approximation {
   HugeArray<double> determinants_;  // per row, of the hull as it is now; no memory: not known
   std::vector<PointId> extra_;      // points that reached further than the space knew
   std::optional<WidthSpace> space_;
-  bool has_left_out_ = false;  // which the space is meant to know
+  bool finds_determinants_ = true;  // will be wanted of the hull as it is then
+  bool has_left_out_ = false;       // which the space is meant to know
+  /// Have the fits seen all points, so that planes that were measured are as wide as they say?
+  bool has_seen_all_ = true;
 
  private:
   std::span<const double> find_determinants(const BlockWork& also);
   const PointTree& left_out_tree();
   std::vector<LocatedPoint> located(std::span<const PointId> left_out) const;
 
-  /// Have the fits seen all points, so that planes that were measured are as wide as they say?
-  bool has_seen_all_ = true;
   std::optional<PointTree> left_out_tree_;  // of left_out(), as rows of the space's kind, once asked for
 };
 

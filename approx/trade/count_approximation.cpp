@@ -43,7 +43,9 @@ constexpr double kAboveFurthest = 1.1, kFirstWidth = 0.1;
 }  // namespace
 
 CountApproximation::CountApproximation(const ApproximationTask& task)
-    : Approximation(task), count_(task.accuracy.facets), has_tried_exact_(task.earlier.has_tried_exact) {}
+    : Approximation(task), count_(task.accuracy.facets), has_tried_exact_(task.earlier.has_tried_exact) {
+  finds_determinants_ = false;
+}
 
 ApproximateFacets CountApproximation::run() {
   ApproximateFacets found;

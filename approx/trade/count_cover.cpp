@@ -104,17 +104,17 @@ CountApproximation::TriedWidth CountApproximation::try_width(const CoverEffort& 
                                                              std::optional<SlabCover>& overlapping) {
   const bool joins = is_worth_joining();
   std::optional<DualFacets> slabs;
-  FacetLimit limit{.most = kFarTooMany * count_};
+  PartitionTask task{.most_facets = kFarTooMany * count_};
   const bool are_far_above = growth_.furthest_height() > kFarAbove * width;
-  if (effort.choices == 1 && (!are_far_above || search_.is_cut_short))
-    slabs = find_disjoint_slabs(width, &limit);
-  if (limit.is_exceeded()) return {static_cast<std::size_t>(limit.expected), {}};
+  if (effort.choices == 1 && (!are_far_above || search_.is_cut_short)) slabs = find_single_slabs(width, task);
+  if (task.has_too_many()) return {static_cast<std::size_t>(task.expected_facets), {}};
+  if (slabs) join_small_slabs(width, *slabs);
   if (slabs) search_.covered += live_count() / kDisjointQuicker;
   if (slabs && slabs->count() > (joins ? 2 * count_ : count_)) return {slabs->count(), {}};
   if (!slabs && !overlapping) overlapping.emplace(growth_.work().complex, *space_, is_convex());
   const WorkEnd end = growth_.end_of_merging();
   Covering covering =
-      slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, limit.most, end);
+      slabs ? covering_of(*slabs, *space_) : overlapping->cover(width, effort, task.most_facets, end);
   if (covering.planes.empty()) {
     search_.is_cut_short |= end.is_here();
     return {std::max(static_cast<std::size_t>(overlapping->expected_facets()), count_ + 1), {}};

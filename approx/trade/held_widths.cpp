@@ -44,11 +44,10 @@ std::optional<Covering> CountApproximation::hold_width(double width, double shar
   for (int round = 0;; ++round) {
     make_space(true);
     const bool may_grow = may_grow_held(share) && round < kHoldRounds;
-    FacetLimit no_limit;
-    std::optional<DualFacets> slabs = find_disjoint_slabs(width, &no_limit);
+    std::optional<DualFacets> slabs = find_disjoint_slabs(width);
     search_.covered += live_count() / (slabs ? kDisjointQuicker : 1);
     const bool is_asked = only_if_far && round == 0;
-    if (is_asked && (!slabs || slabs->unfit == 0)) return std::nullopt;
+    if (is_asked && (!slabs || slabs->unfit.empty())) return std::nullopt;
     Covering covering = slabs ? covering_of(*slabs, *space_)
                               : SlabCover(growth_.work().complex, *space_, is_convex())
                                     .cover(width, CoverEffort{.final_fit_steps = 0});

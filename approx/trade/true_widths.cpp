@@ -2,6 +2,7 @@
 // says which points are to be taken in.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "approx/trade/approximation.h"
 #include "core/ids.h"
@@ -72,6 +73,30 @@ std::vector<FurthestPoint> Approximation::furthest_above(std::span<const std::ui
   return found;
 }
 
+/// The furthest of the points left out above each of these simplices, a point once; ascending. The space is to
+/// know them from now on.
+std::vector<LocatedPoint> Approximation::far_above(std::span<const std::uint32_t> simplices) {
+  const std::size_t rank = space_->rank();
+  std::vector<LocatedPoint> above;
+  const std::vector<FurthestPoint> furthest = furthest_above(simplices);
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    if (furthest[i].row == FurthestPoint::kNoRow) continue;
+    const PointId point = growth_.left_out()[furthest[i].row].point;
+    extra_.push_back(point);
+    const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
+    const auto plane = growth_.work().complex.plane(SimplexId{simplices[i]});
+    const double gauge = std::inner_product(plane.begin(), plane.end(), y, -1.0);
+    if (gauge > 0.0) above.push_back({point, SimplexId{simplices[i]}, gauge});
+  }
+  std::ranges::stable_sort(above, {}, &LocatedPoint::point);
+  const auto same = std::ranges::unique(above, {}, &LocatedPoint::point);
+  above.erase(same.begin(), same.end());
+  std::ranges::sort(extra_);
+  const auto known = std::ranges::unique(extra_);
+  extra_.erase(known.begin(), known.end());
+  return above;
+}
+
 /// Points that growth has left out, each with the simplex that it is highest above; not those that are above
 /// none by more than rounding.
 std::vector<LocatedPoint> Approximation::located(std::span<const PointId> left_out) const {
@@ -100,7 +125,7 @@ std::vector<LocatedPoint> Approximation::located(std::span<const PointId> left_o
 /// Remembers, for each facet that is wider than `width`, the point that makes it so, and tells those that are
 /// above a simplex that is a facet alone: no smaller slab helps there, growth has to take them in.
 Offenders Approximation::add_offenders(const Covering& covering, const TrueWidths& widths, double width) {
-  const std::size_t rank = space_->rank(), count = widths.widths.size();
+  const std::size_t count = widths.widths.size();
   std::vector<std::uint32_t> size_of(count, 0), row_of(count, kNone), alone;
   for (std::uint32_t row = 0; row < covering.facet_of.size(); ++row) {
     if (covering.facet_of[row] == kNone) continue;
@@ -108,14 +133,10 @@ Offenders Approximation::add_offenders(const Covering& covering, const TrueWidth
     row_of[covering.facet_of[row]] = row;
   }
   Offenders offenders;
-  const auto remember = [&](const FurthestPoint& furthest) {
-    const bool is_left_out = furthest.row != FurthestPoint::kNoRow;
-    if (is_left_out) extra_.push_back(growth_.left_out()[furthest.row].point);
-    return is_left_out;
-  };
   for (std::uint32_t facet = 0; facet < count; ++facet) {
     if (widths.widths[facet] <= width) continue;
-    remember(widths.furthest[facet]);
+    const FurthestPoint& furthest = widths.furthest[facet];
+    if (furthest.row != FurthestPoint::kNoRow) extra_.push_back(growth_.left_out()[furthest.row].point);
     if (size_of[facet] > 1) {
       offenders.widest_slab = std::max(offenders.widest_slab, widths.widths[facet]);
     } else {
@@ -123,23 +144,7 @@ Offenders Approximation::add_offenders(const Covering& covering, const TrueWidth
     }
   }
   // Above the simplex' own plane: along one that was fitted in vain a point may be furthest that is below it.
-  const std::vector<FurthestPoint> furthest_of = furthest_above(alone);
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    if (!remember(furthest_of[i])) continue;
-    const PointId point = growth_.left_out()[furthest_of[i].row].point;
-    const double* y = growth_.coordinates() + std::size_t{point.value} * rank;
-    const auto plane = growth_.work().complex.plane(SimplexId{alone[i]});
-    double gauge = -1.0;
-    for (std::size_t k = 0; k < rank; ++k) gauge += plane[k] * y[k];
-    if (gauge > 0.0) offenders.above_simplices.push_back({point, SimplexId{alone[i]}, gauge});
-  }
-  const auto by_point = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point < b.point; };
-  const auto is_same = [](const LocatedPoint& a, const LocatedPoint& b) { return a.point == b.point; };
-  std::vector<LocatedPoint>& above = offenders.above_simplices;
-  std::stable_sort(above.begin(), above.end(), by_point);
-  above.erase(std::unique(above.begin(), above.end(), is_same), above.end());
-  std::sort(extra_.begin(), extra_.end());
-  extra_.erase(std::unique(extra_.begin(), extra_.end()), extra_.end());
+  offenders.above_simplices = far_above(alone);
   return offenders;
 }
 

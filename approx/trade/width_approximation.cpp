@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "approx/slabs/held_simplices.h"
 #include "approx/slabs/slab_partition.h"
-#include "approx/trade/far_above.h"
 #include "core/machine/stopwatch.h"
 
 namespace ndhull {
@@ -17,9 +17,8 @@ constexpr std::size_t kFewOfWholeHull = 128;
 constexpr double kLeftOutMany = 1.0;
 /// Part of the width that points may be outside where a limit has ended growth.
 constexpr double kShareOutside = 0.85;
-/// Rounds in which points that are far above simplices are looked for before slabs are, and in which the fits
-/// see what was above fewer facets.
-constexpr int kRoundsOfFar = 3, kMostRoundsOfPoints = 6;
+/// Rounds in which the fits see what was above fewer facets.
+constexpr int kMostRoundsOfPoints = 6;
 
 }  // namespace
 
@@ -62,7 +61,7 @@ bool WidthApproximation::is_worth_looking_further(std::size_t facets) const {
 /// Is nothing left to be looked at? All points were seen, no simplex was too wide alone, the planes bound a
 /// region, and hardly any two facets would fit into one slab.
 bool WidthApproximation::is_final(const DualFacets& facets) const {
-  return facets.unfit == 0 && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
+  return facets.unfit.empty() && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
          !is_worth_joining_again(facets.count(), live_count());
 }
 
@@ -95,15 +94,25 @@ Covering WidthApproximation::cover(std::optional<DualFacets> slabs, HullFacets* 
   return covering;
 }
 
-/// Points that would make a covering vain, where that takes longer than taking them in. Not many: of a thin
-/// hull hundreds can be far above the simplices of its rim, which slabs hold all the same.
-std::vector<LocatedPoint> WidthApproximation::few_far_above() const {
-  constexpr std::size_t kLargeHull = 50'000, kFew = 8, kPart = 4;
-  if (!has_left_out_ || live_count() < kLargeHull) return {};
-  std::vector<LocatedPoint> far =
-      find_far_above(growth_.work(), growth_.coordinates(), *space_, growth_.left_out(), target_);
-  if (far.size() > std::max(kFew, growth_.left_out().size() / kPart)) return {};
-  return far;
+/// Disjoint slabs that hold all simplices, small ones joined; or the points that are too far above simplices
+/// which none holds, as far as growth may take them in. Slabs are of no use then.
+std::vector<LocatedPoint> WidthApproximation::find_slabs(bool may_grow, std::optional<DualFacets>& slabs) {
+  constexpr std::size_t kFew = 128;  // of the facets one in so many
+  constexpr int kRoundsOfMany = 3;
+  slabs = find_single_slabs(slab_, task_);
+  if (!slabs) return {};
+  // Held by planes of their own many would be many facets. Taking in points for the last ones has no end: the next
+  // partition leaves others.
+  const bool takes_in = may_grow && has_seen_all_ && !has_settled() && !growth_.is_late();
+  const bool are_many = slabs->unfit.size() > slabs->count() / kFew && rounds_of_many_ < kRoundsOfMany;
+  if (are_many) ++rounds_of_many_;
+  if (!takes_in || !are_many) hold_unfit(*space_, growth_.coordinates(), slab_, *slabs);
+  if (takes_in) {
+    std::vector<LocatedPoint> far = far_above(slabs->unfit);
+    if (!far.empty()) return far;
+  }
+  join_small_slabs(slab_, *slabs);
+  return {};
 }
 
 /// Is there time for another round, the last one having taken so long?
@@ -167,13 +176,12 @@ FacetClusters WidthApproximation::find_facets() {
       take_in_outside(outside_width_);
       continue;
     }
-    const std::vector<LocatedPoint> far =
-        may_grow && round < kRoundsOfFar ? few_far_above() : std::vector<LocatedPoint>();
+    std::optional<DualFacets> slabs;
+    const std::vector<LocatedPoint> far = find_slabs(may_grow, slabs);
     if (!far.empty()) {
       take_in_far(far, round);
       continue;
     }
-    std::optional<DualFacets> slabs = find_disjoint_slabs(slab_);
     if (slabs && is_final(*slabs) && !is_thorough()) {
       hull_.chosen.outside_width = outside_width_;
       hull_.chosen.slab_width = slab_;

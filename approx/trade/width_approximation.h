@@ -35,19 +35,21 @@ class WidthApproximation : private Approximation {
   bool leaves_out_hardly_any() const;
   double less_outside(int round) const;
   void take_in_far(std::span<const LocatedPoint> far, int round);
-  std::vector<LocatedPoint> few_far_above() const;
 
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   bool is_worth_looking_further(std::size_t facets) const;
   bool is_final(const DualFacets& facets) const;
+  std::vector<LocatedPoint> find_slabs(bool may_grow, std::optional<DualFacets>& slabs);
   Covering cover(std::optional<DualFacets> slabs, HullFacets* known);
   void look_for_fewer(Covering& covering);
 
   double input_bytes_;
   EarlierRun earlier_;
-  double target_;         // [distance] no facet is to be wider
-  double outside_width_;  // [distance] points that are less than this outside are left out
-  double slab_;           // [distance] width of the slabs, at most the target
+  double target_;           // [distance] no facet is to be wider
+  double outside_width_;    // [distance] points that are less than this outside are left out
+  double slab_;             // [distance] width of the slabs, at most the target
+  PartitionTask task_;      // of the slabs last found
+  int rounds_of_many_ = 0;  // in which many simplices were in no slab
   HullStatus limit_ = HullStatus::kComplete;  // that has ended growth, and a wider one is looked for
   bool has_too_many_vertices_ = false;        // for stars, as far as is foreseen
   std::optional<StarHull> star_hull_;

@@ -25,12 +25,14 @@ struct Clustered {
     std::vector<double> factor(complex.rank * complex.rank, 0.0), determinants(complex.row_count);
     for (std::size_t k = 0; k < complex.rank; ++k) factor[k * complex.rank + k] = 1.0;
     solve_outwards(complex, sphere.coordinates.data(), {}, determinants);
-    std::optional<DualFacets> facets =
-        partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint,
-                             width, [&](const BlockWork& also) {
-                               also(0, complex.row_count);
-                               return std::span<const double>(determinants);
-                             });
+    PartitionTask task;
+    std::optional<DualFacets> facets = partition_into_slabs(
+        complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint, width,
+        [&](const BlockWork& also) {
+          also(0, complex.row_count);
+          return std::span<const double>(determinants);
+        },
+        task);
     facet_of = facets->facet_of_rows();
     for (std::size_t facet = 0; facet < facets->count(); ++facet)
       planes.emplace_back(facets->plane(facet).begin(), facets->plane(facet).end());

@@ -25,8 +25,9 @@ struct Slabs {
     return partition_in(*sphere.space, width, above);
   }
   std::optional<DualFacets> partition_in(const WidthSpace& space, double width, PointsAbove above) const {
+    PartitionTask task;
     return partition_into_slabs(sphere.work.complex, space, sphere.coordinates.data(), factor, above, width,
-                                {});
+                                {}, task);
   }
   void join(double width, std::size_t most, DualFacets& facets) const {
     join_along_segments(sphere.work.complex, sphere.coordinates.data(), factor, sphere.work.point_count,
@@ -84,7 +85,7 @@ TEST(SlabPartitionLaw, EachSimplexIsInOneConnectedSlab) {
     for (const double width : {0.01, 0.05, 0.1}) {
       const std::optional<DualFacets> facets = slabs.partition(width);
       ASSERT_TRUE(facets);
-      EXPECT_EQ(facets->unfit, 0U);
+      EXPECT_EQ(facets->unfit.size(), 0U);
       EXPECT_TRUE(facets->are_far_from_centre);
       expect_lists(sphere, *facets);
       expect_slabs(sphere, *facets, width);
