@@ -97,8 +97,10 @@ class RegionCloser {
     if (best.row == kNone) return false;
     if (!known_ || reach_above(best.row) <= known_->width) return take(best.row);
     Facing of_known;
-    for (const std::vector<PointId>& vertices : known_->vertices)
-      if (const std::uint32_t row = row_of(vertices); row != kNone) look_at(row, along, of_known);
+    while (known_rows_.size() < known_->vertices.size())
+      known_rows_.push_back(row_of(known_->vertices[known_rows_.size()]));
+    for (const std::uint32_t row : known_rows_)
+      if (row != kNone) look_at(row, along, of_known);
     if (of_known.most > kFacesEnough) return take(of_known.row);
     return take_hull_facet(along, best.row);
   }
@@ -201,6 +203,7 @@ class RegionCloser {
   std::vector<std::uint32_t> size_of_;
   RegionPlanes planes_;
   std::vector<std::uint8_t> is_wanted_;
+  std::vector<std::uint32_t> known_rows_;  // of the first of known_->vertices: each is looked for once
   std::optional<ColumnTable> points_;
   PlaneFitWork fit_;
   std::size_t taken_ = 0;
