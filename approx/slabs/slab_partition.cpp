@@ -371,8 +371,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     const bool walks = !(find_determinants && partitioner.is_better_by_stars(sizes));
     if (walks) partitioner.choose_walks();
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
-    // One thread finds determinants, which will be wanted, while it has the rows near; later, where points that
-    // were left out may have to be taken in before. Another thread has the time.
+    // One thread finds them while it has the rows near; not where points left out may have to come in before.
     const bool finds_beside = find_determinants && has_more_threads();
     const bool finds_first = find_determinants && !finds_beside && above == PointsAbove::kNoPoint;
     if (finds_first && walks) {
@@ -392,7 +391,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     } else {
       run();
     }
-    task.sizes = {sizes.mean, double{facets.begin.back()} / static_cast<double>(facets.count())};
+    task.sizes = {sizes.mean, static_cast<double>(facets.begin.back()) / static_cast<double>(facets.count())};
     return facets;
   });
 }
