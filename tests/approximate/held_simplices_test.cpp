@@ -96,8 +96,12 @@ TEST(HeldSimplices, GetPlanesThatHoldThemOrStayUnfit) {
       held += once.size() - still.size();
       for (std::size_t facet = 0; facet < facets.count(); ++facet) {
         const std::uint32_t seed = facets.seeds[facet];
-        if (once.contains(seed)) EXPECT_EQ(facets.size(facet), 1u);
-        if (!still.contains(seed)) EXPECT_LE(width_below(hull, facets, facet), width * (1.0 + 1e-12));
+        if (once.contains(seed)) {
+          EXPECT_EQ(facets.size(facet), 1u);
+        }
+        if (!still.contains(seed)) {
+          EXPECT_LE(width_below(hull, facets, facet), width * (1.0 + 1e-12));
+        }
         if (!once.contains(seed) || still.contains(seed)) {
           EXPECT_TRUE(std::ranges::equal(facets.plane(facet), before.plane(facet)));
         }
