@@ -101,8 +101,8 @@ std::vector<LocatedPoint> WidthApproximation::find_slabs(bool may_grow, std::opt
   constexpr int kRoundsOfMany = 3;
   slabs = find_single_slabs(slab_, task_);
   if (!slabs) return {};
-  // Held by planes of their own many would be many facets. Taking in points for the last ones has no end: the next
-  // partition leaves others.
+  // Held by planes of their own many would be many facets. Taking in points for the last ones has no end: the
+  // next partition leaves others.
   const bool takes_in = may_grow && has_seen_all_ && !has_settled() && !growth_.is_late();
   const bool are_many = slabs->unfit.size() > slabs->count() / kFew && rounds_of_many_ < kRoundsOfMany;
   if (are_many) ++rounds_of_many_;
