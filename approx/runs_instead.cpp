@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "approx/hull_run.h"
+#include "core/machine/block_store.h"
 
 namespace ndhull {
 
 /// From the beginning.
 Hull HullBuilder::again(const HullOptions& options, EarlierRun earlier) {
   growth_.reset();
+  if (options.limits.max_memory_bytes > 0) give_back_free_pages();
   std::unique_ptr<WholeFacetSearch> search;
   if (options.accuracy.is_exact()) search = std::move(whole_facets_);  // of the same frame
   return HullBuilder(points_, options, start_, input_bytes_, earlier, std::move(search)).run();

@@ -52,7 +52,7 @@ CertifiedGrowth::CertifiedGrowth(const PointView& points, const Frame& frame,
       options_(options),
       start_(start),
       hull_(hull),
-      limits_(limits_of_growth(options), start, gathering_of(options.accuracy)) {
+      limits_(limits_of_growth(options), start, gathering_of(options.accuracy), options.accuracy.facets) {
   coordinates_ = HugeArray<double>::to_write(points_.rows * frame_.rank);
   map_points(points_, frame_, coordinates_.data());
   work_.rank = frame_.rank;

@@ -85,6 +85,12 @@ class CertifiedGrowth {
   /// May the simplices be gathered into facets? Not when time is up, memory is short or a stop was requested:
   /// then they are the facets, which takes neither.
   bool may_cover();
+  /// As far as time and stops go.
+  bool has_time_to_cover();
+  /// As far as memory goes; the status says when there is none.
+  bool has_memory_to_cover();
+  /// Is there memory for facets of so many disjoint slabs, which are looked at further, or not? Likewise.
+  bool has_memory_for_slabs(std::size_t slabs, bool looks_further);
   /// Has a limit on time or simplices ended growth, and is there time to gather what there is all the same? The
   /// limit; the status is then that of growth that has paused. kComplete: no.
   HullStatus go_on_within_limit();
@@ -93,6 +99,8 @@ class CertifiedGrowth {
   bool may_search(std::size_t points);
   /// [bytes] that are left beside the complex and the points; UINT64_MAX: no limit.
   std::uint64_t bytes_left() const { return limits_.bytes_left(work_, point_bytes()); }
+  /// Facets that there is memory to choose, when a number is asked for; UINT64_MAX: no limit.
+  std::uint64_t most_facets() const { return limits_.most_facets(work_, point_bytes()); }
   /// Simplices that there is memory for; 0: no limit.
   std::uint64_t most_rows() const { return limits_.most_rows(work_, frame_.dimension, point_bytes()); }
   const HullOptions& options() const { return options_; }
@@ -144,6 +152,7 @@ class CertifiedGrowth {
   bool may_be_rougher() const;
   void record_progress(std::uint64_t points_left, double furthest, std::uint64_t simplices);
   std::uint64_t point_bytes() const;
+  bool noted_memory(bool has_memory);
   void tell(Phase phase, std::uint64_t points_left, double furthest) const {
     tell(phase, points_left, furthest, work_.complex.row_count - work_.free_count, 0);
   }

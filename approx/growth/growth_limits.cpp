@@ -6,12 +6,10 @@
 namespace ndhull {
 
 bool CertifiedGrowth::may_search(std::size_t points) {
-  if (limits_.has_memory_to_search(work_, frame_.dimension, point_bytes(), points)) return true;
-  hull_.status = HullStatus::kMemoryLimit;
-  return false;
+  return noted_memory(limits_.has_memory_to_search(work_, frame_.dimension, point_bytes(), points));
 }
 
-bool CertifiedGrowth::may_cover() {
+bool CertifiedGrowth::has_time_to_cover() {
   const bool has_ended = is_found_otherwise_ || hull_.status == HullStatus::kTimeLimit ||
                          hull_.status == HullStatus::kInterrupted;
   if (has_ended) return false;
@@ -19,12 +17,26 @@ bool CertifiedGrowth::may_cover() {
     hull_.status = HullStatus::kInterrupted;
   } else if (!limits_.has_time_to_cover(work_, left_out_.size())) {
     hull_.status = HullStatus::kTimeLimit;
-  } else if (!limits_.has_memory_to_cover(work_, frame_.dimension, point_bytes())) {
-    hull_.status = HullStatus::kMemoryLimit;
   } else {
     return true;
   }
   return false;
+}
+
+bool CertifiedGrowth::may_cover() { return has_time_to_cover() && has_memory_to_cover(); }
+
+bool CertifiedGrowth::has_memory_to_cover() {
+  return noted_memory(limits_.has_memory_to_cover(work_, frame_.dimension, point_bytes()));
+}
+
+bool CertifiedGrowth::has_memory_for_slabs(std::size_t slabs, bool looks_further) {
+  return noted_memory(
+      limits_.has_memory_for_slabs(work_, frame_.dimension, point_bytes(), slabs, looks_further));
+}
+
+bool CertifiedGrowth::noted_memory(bool has_memory) {
+  if (!has_memory) hull_.status = HullStatus::kMemoryLimit;
+  return has_memory;
 }
 
 HullStatus CertifiedGrowth::go_on_within_limit() {

@@ -35,6 +35,14 @@ constexpr std::uint64_t kMergeBytes = 64;
 /// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points;
 /// the more the fewer merge.
 constexpr std::uint64_t kCoverBytes = 140;
+/// [bytes] of a facet that is a slab, and of each of its coordinates: of hulls in 5-d to 10-d whose simplices
+/// hardly merge, which take most, up to 145 in 8-d.
+constexpr std::uint64_t kSlabBytes = 96, kSlabCoordinate = 8;
+/// [bytes] of a simplex among which a number of facets is looked for, beside its tables; of each facet, and of
+/// its coordinates: of hulls in 5-d to 9-d, with facets for one to 1,000 simplices, quick and thorough.
+constexpr std::uint64_t kCountBytes = 220, kFacetOfCount = 900, kCoordinateOfCount = 45;
+/// [bytes] of a simplex whose slabs are looked at further, as a covering.
+constexpr std::uint64_t kCoveringBytes = 60;
 /// [bytes] of a simplex that points were searched above: what was found; of a coordinate of these points.
 constexpr std::uint64_t kSearchBytes = 32, kSearchedCoordinate = 24;
 /// [bytes] Tables grow by huge pages of 2 MiB; some ten are large.
@@ -63,14 +71,47 @@ std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t poin
 std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const {
   if (limits_.most_memory() == 0) return 0;
-  const bool covers = gathering_ == Gathering::kCount;
-  return rows_for(row_bytes(work, dimension, covers || !work.shifted_points.empty(), covers), point_bytes);
+  if (gathering_ == Gathering::kCount) return rows_to_choose_from(work, dimension, point_bytes);
+  return rows_for(row_bytes(work, dimension, !work.shifted_points.empty(), false), point_bytes);
+}
+
+/// Facets for an eighth of the simplices, if so many are asked for: with more simplices points are less far
+/// above them, and facets as narrow as these points allow are fewer.
+std::uint64_t WorkLimits::rows_to_choose_from(const GrowthWork& work, std::size_t dimension,
+                                              std::uint64_t point_bytes) const {
+  constexpr std::uint64_t kSimplicesOfFacet = 8;
+  const std::uint64_t row = row_bytes(work, dimension, false, false) - kFacetBytes + kCountBytes;
+  const std::uint64_t facet = chosen_facet_bytes(work);
+  const std::uint64_t most_facets = limits_.most_memory() / facet + 1;
+  return std::max(rows_for(row + facet / kSimplicesOfFacet, point_bytes),
+                  rows_for(row, point_bytes + facet * std::min(facets_, most_facets)));
+}
+
+std::uint64_t WorkLimits::chosen_facet_bytes(const GrowthWork& work) {
+  return kFacetOfCount + kCoordinateOfCount * work.rank;
+}
+
+std::uint64_t WorkLimits::most_facets(const GrowthWork& work, std::uint64_t point_bytes) const {
+  if (limits_.most_memory() == 0) return UINT64_MAX;
+  const std::uint64_t left = bytes_left(work, point_bytes);
+  const std::uint64_t of_rows = work.complex.row_count * (kCountBytes - kFacetBytes);
+  return left > of_rows ? (left - of_rows) / chosen_facet_bytes(work) : 0;
 }
 
 bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
                                      std::uint64_t point_bytes) const {
   if (limits_.most_memory() == 0) return true;
   return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
+}
+
+bool WorkLimits::has_memory_for_slabs(const GrowthWork& work, std::size_t dimension,
+                                      std::uint64_t point_bytes, std::uint64_t slabs,
+                                      bool looks_further) const {
+  if (limits_.most_memory() == 0) return true;
+  std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false);
+  if (looks_further) bytes_a_row += kCoveringBytes;
+  const std::uint64_t slab_bytes = slabs * (kSlabBytes + kSlabCoordinate * dimension);
+  return work.complex.row_count <= rows_for(bytes_a_row, point_bytes + slab_bytes);
 }
 
 bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimension,

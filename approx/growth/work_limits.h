@@ -28,9 +28,9 @@ class WorkLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `start`: of the clock that max_seconds limits.
-  WorkLimits(const Limits& limits, Clock::time_point start, Gathering gathering)
-      : limits_(limits), start_(start), gathering_(gathering) {}
+  /// `start`: of the clock that max_seconds limits. `facets`: the number that is asked for, of kCount.
+  WorkLimits(const Limits& limits, Clock::time_point start, Gathering gathering, std::uint64_t facets)
+      : limits_(limits), start_(start), gathering_(gathering), facets_(facets) {}
 
   /// Rows of the complex that max_memory_bytes leaves room for; 0: no limit. `point_bytes`: all that is kept
   /// of the points.
@@ -42,11 +42,18 @@ class WorkLimits {
   /// are no vertices and not well inside.
   bool has_time_to_cover(const GrowthWork& work, std::uint64_t left_out) const;
   bool has_memory_to_cover(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes) const;
+  /// Is there memory for facets of so many disjoint slabs, which have been found and are looked at further, or
+  /// not? For a width slabs are found before this is asked: it is their number that takes memory.
+  bool has_memory_for_slabs(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
+                            std::uint64_t slabs, bool looks_further) const;
   /// Is there memory to search `points` for the furthest above each simplex (outside_points.h)?
   bool has_memory_to_search(const GrowthWork& work, std::size_t dimension, std::uint64_t point_bytes,
                             std::uint64_t points) const;
   /// [bytes] that are left beside the complex and the points; UINT64_MAX: no limit.
   std::uint64_t bytes_left(const GrowthWork& work, std::uint64_t point_bytes) const;
+  /// Facets that may be chosen in it, of simplices that are grown, when a number is asked for; UINT64_MAX: no
+  /// limit.
+  std::uint64_t most_facets(const GrowthWork& work, std::uint64_t point_bytes) const;
   /// Has so much of the time passed that nothing should be tried a second time?
   bool is_late() const;
   double seconds_left() const;  ///< of max_seconds, which is above 0
@@ -56,6 +63,9 @@ class WorkLimits {
 
  private:
   std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) const;
+  std::uint64_t rows_to_choose_from(const GrowthWork& work, std::size_t dimension,
+                                    std::uint64_t point_bytes) const;
+  static std::uint64_t chosen_facet_bytes(const GrowthWork& work);
   std::uint64_t rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const;
   double finish_seconds(const GrowthWork& work, const HullBall& ball, std::uint64_t points);
   /// Of some points from the one with id `first` on, taken evenly.
@@ -66,6 +76,7 @@ class WorkLimits {
   Limits limits_;
   Clock::time_point start_;
   Gathering gathering_;
+  std::uint64_t facets_;
   std::uint64_t sampled_at_ = 0;  // rows when points were sampled last
   double seconds_per_point_ = 0.0;
 };

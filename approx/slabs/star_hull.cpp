@@ -157,7 +157,7 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   const WidthSpace space = make_space(hull.vertices, others);
   lap("choosing vertices");
   StarOptions options;
-  const std::uint64_t row_bytes = 2 * (work.rank - 1) + 1, left = growth.bytes_left();
+  const std::uint64_t row_bytes = star_row_bytes(work.rank), left = growth.bytes_left();
   if (left != UINT64_MAX) {
     // Two threads may have half of it in the tables of stars, while there are few rows or the stars are
     // small.
@@ -178,8 +178,7 @@ std::optional<StarHull> find_star_hull(CertifiedGrowth& growth, std::span<const 
   lap("stars");
   if (!rows) return std::nullopt;
   hull.simplices = rows->count();
-  // Planes, areas and vertices while they become more, then the facet table beside them.
-  const std::uint64_t facet_bytes = 48 * work.rank + 200;
+  const std::uint64_t facet_bytes = star_facet_bytes(work.rank);
   const std::uint64_t most_facets =
       left == UINT64_MAX ? left : (left - bytes_of(hull.simplices)) / facet_bytes;
   const auto gives_up = [&](std::uint64_t simplices_left, std::uint64_t found) {

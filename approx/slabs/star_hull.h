@@ -29,6 +29,11 @@ struct StarHull {
   int surface_exponent = 0;  ///< facets.surface times 2^surface_exponent is a multiple of an area
 };
 
+/// [bytes] A simplex in a list of rows without neighbours; and a facet while facets become more: planes, areas
+/// and vertices, then the facet table beside them.
+constexpr std::uint64_t star_row_bytes(std::size_t rank) { return 2 * (rank - 1) + 1; }
+constexpr std::uint64_t star_facet_bytes(std::size_t rank) { return 48 * rank + 200; }
+
 /// Goes on from the vertices that growth has: a hull whose facets are no wider than `width`. Points less than
 /// `enough` from the hull, which is less than `width`, may be left out.
 ///

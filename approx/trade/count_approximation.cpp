@@ -57,6 +57,7 @@ ApproximateFacets CountApproximation::run() {
   begin_growth(guess);
   if (growth_.is_found_otherwise()) return found;
   if (is_whole() && count_exact_facets(growth_.work(), growth_.coordinates()) <= count_) return found;
+  const bool is_short_of_memory = keep_within_memory();
   search_.narrowest = Covering{};  // of the coarse hull
   if (!is_outside_width_given()) search_held(guess.coarse, true);
   if (!search_.has_any()) search_slabs(guess.slab);
@@ -68,7 +69,16 @@ ApproximateFacets CountApproximation::run() {
   if (is_thorough()) look_for_narrower();
   hull_.chosen.slab_width = search_.slab;
   found.clusters = facets_of(search_.narrowest);
+  if (is_short_of_memory && hull_.status == HullStatus::kComplete) hull_.status = HullStatus::kMemoryLimit;
   return found;
+}
+
+/// Asks for fewer facets where memory is too short for as many as were asked for. True: it is.
+bool CountApproximation::keep_within_memory() {
+  const auto most = std::max<std::uint64_t>(frame_.rank + 1, growth_.most_facets());
+  if (count_ <= most) return false;
+  count_ = most;
+  return true;
 }
 
 /// Of a coarse hull: is it worth its time to grow the exact one before anything else is looked for?

@@ -44,6 +44,7 @@ class CountApproximation : private Approximation {
   bool may_be_few_exact_facets();
   SlabGuess guess_slab();
   void foresee_coverings(double seconds_at_first);
+  bool keep_within_memory();
   void begin_growth(SlabGuess& guess);
   void grow(const SlabGuess& guess);
   bool is_coarse_for(double slab);
@@ -73,7 +74,7 @@ class CountApproximation : private Approximation {
   /// Widths up to this are rounding's: a number of facets that is as narrow has found the flat faces.
   double flat() const { return 1e-13 * lengths_.largest_extent; }
 
-  const std::uint64_t count_;
+  std::uint64_t count_;
   const bool has_tried_exact_;
   double outside_width_ = 0.0;  // [distance] points that are less than this outside are left out
   Search search_;

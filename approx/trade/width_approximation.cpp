@@ -38,7 +38,7 @@ ApproximateFacets WidthApproximation::run() {
   found.determinants = std::move(determinants_);
   found.star_hull = std::move(star_hull_);
   found.may_do_without_complex =
-      is_width_alone() && !has_too_many_vertices_ && !growth_.options().wants_simplices;
+      is_width_alone() && !are_stars_in_vain_ && !growth_.options().wants_simplices;
   return found;
 }
 
@@ -63,6 +63,17 @@ bool WidthApproximation::is_worth_looking_further(std::size_t facets) const {
 bool WidthApproximation::is_final(const DualFacets& facets) const {
   return facets.unfit.empty() && facets.are_far_from_centre && growth_.left_out().size() <= kFewLeftOut &&
          !is_worth_joining_again(facets.count(), live_count());
+}
+
+/// Where there is none for slabs, may there be for the same hull without its complex?
+bool WidthApproximation::has_memory_for(const std::optional<DualFacets>& slabs, bool are_final) {
+  if (!slabs) return growth_.has_memory_to_cover();
+  if (growth_.has_memory_for_slabs(slabs->count(), !are_final)) return true;
+  const std::size_t rank = frame_.rank;
+  const std::uint64_t room = growth_.bytes_left() + live_count() * 16 * rank;
+  if (live_count() * star_row_bytes(rank) + slabs->count() * star_facet_bytes(rank) > room)
+    are_stars_in_vain_ = true;
+  return false;
 }
 
 /// No planes: not even slabs as thin as rounding leave a hull. `known`: as close_open_directions; with points
@@ -166,7 +177,7 @@ FacetClusters WidthApproximation::find_facets() {
     determinants_ = HugeArray<double>();
     grow();
     const Clock::time_point round_start = Clock::now();
-    const bool may_cover = growth_.may_cover();
+    const bool may_cover = hull_.status != HullStatus::kMemoryLimit && growth_.has_time_to_cover();
     if (settles_for_wider()) known.width = slab_ = target_;
     if (!may_cover && (!has_settled() || hull_.status == HullStatus::kInterrupted)) return FacetClusters{};
     make_space(true);
@@ -182,7 +193,9 @@ FacetClusters WidthApproximation::find_facets() {
       take_in_far(far, round);
       continue;
     }
-    if (slabs && is_final(*slabs) && !is_thorough()) {
+    const bool are_final = slabs && is_final(*slabs) && !is_thorough();
+    if (!has_memory_for(slabs, are_final)) return FacetClusters{};
+    if (are_final) {
       hull_.chosen.outside_width = outside_width_;
       hull_.chosen.slab_width = slab_;
       FacetClusters clusters = clusters_of(std::move(*slabs));

@@ -39,6 +39,7 @@ class WidthApproximation : private Approximation {
   bool is_worth_joining_again(std::size_t facets, std::size_t simplices) const;
   bool is_worth_looking_further(std::size_t facets) const;
   bool is_final(const DualFacets& facets) const;
+  bool has_memory_for(const std::optional<DualFacets>& slabs, bool are_final);
   std::vector<LocatedPoint> find_slabs(bool may_grow, std::optional<DualFacets>& slabs);
   Covering cover(std::optional<DualFacets> slabs, HullFacets* known);
   void look_for_fewer(Covering& covering);
@@ -51,7 +52,7 @@ class WidthApproximation : private Approximation {
   PartitionTask task_;      // of the slabs last found
   int rounds_of_many_ = 0;  // in which many simplices were in no slab
   HullStatus limit_ = HullStatus::kComplete;  // that has ended growth, and a wider one is looked for
-  bool has_too_many_vertices_ = false;        // for stars, as far as is foreseen
+  bool are_stars_in_vain_ = false;            // as far as is foreseen
   std::optional<StarHull> star_hull_;
 };
 

@@ -79,6 +79,14 @@ class BlockStore {
     }
   }
 
+  void give_back() noexcept {
+    const std::lock_guard lock(mutex_);
+    for (StorePlace* place = first_free_; place != nullptr; place = place->next_free)
+      discard(reinterpret_cast<char*>(place) + sizeof(StorePlace), end_of(place));
+    discard(top_, touched_);
+    touched_ = top_;
+  }
+
   void leave_shared() noexcept {
     const std::lock_guard lock(mutex_);
     if (top_ == nullptr) return;
@@ -158,6 +166,8 @@ std::size_t address_space() {
 void* take_block(std::size_t bytes) noexcept {
   return bytes < kSmallestBlock || bytes > kLargestBlock ? nullptr : store.take(bytes);
 }
+
+void give_back_free_pages() noexcept { store.give_back(); }
 
 void leave_shared_blocks() noexcept { store.leave_shared(); }
 

@@ -23,6 +23,9 @@ void* take_block(std::size_t bytes) noexcept;
 /// Is the address one of the store's?
 bool is_in_store(const void* address) noexcept;
 
+/// Gives all whole pages of free places back to the system: before work that memory is counted for begins anew.
+void give_back_free_pages() noexcept;
+
 /// For a process that was copied (fork): leaves behind what was free, and begins in pages that have not been
 /// used. Pages that it shares with the first process would be copied when it writes to them, small ones at a
 /// time. Blocks that it has stay.

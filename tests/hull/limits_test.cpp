@@ -242,13 +242,32 @@ TEST(LimitsLaw, MemoryThatIsShortForMergingGoesIntoGrowth) {
 TEST(LimitsLaw, SimplicesThatKeepAWidthStayWhereMemoryIsShortForSlabs) {
   const PointSet set = sphere(2000, 5);
   // With a limit on time nothing is tried without the complex.
-  HullOptions options{.limits = {.max_seconds = 600.0, .max_memory_bytes = 12'000'000}};
-  options.accuracy.width = {.value = 6.0, .is_percent = true};
+  HullOptions options{.limits = {.max_seconds = 600.0, .max_memory_bytes = 11'000'000}};
+  options.accuracy.width = {.value = 0.2, .is_percent = true};
   const Hull hull = hull_of(set, options);
   EXPECT_EQ(hull.status, HullStatus::kMemoryLimit);
   EXPECT_FALSE(hull.is_approximate);
   EXPECT_LE(hull.max_facet_width, hull.chosen.width_asked);
   EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+  // It is the number of slabs that takes memory: of wider ones there are fewer.
+  options.accuracy.width.value = 6.0;
+  const Hull wide = hull_of(set, options);
+  EXPECT_EQ(wide.status, HullStatus::kComplete);
+  EXPECT_LT(wide.facet_count(), hull.facet_count() / 10U);
+}
+
+// Facets that there is no memory to choose are not asked for.
+TEST(LimitsLaw, FewerFacetsThanAskedForWhereMemoryIsShort) {
+  const PointSet set = sphere(2000, 5);
+  HullOptions options{.limits = {.max_memory_bytes = 40'000'000}};
+  options.accuracy = {.facets = 30'000};
+  const Hull hull = hull_of(set, options);
+  EXPECT_EQ(hull.status, HullStatus::kMemoryLimit);
+  EXPECT_LE(hull.facet_count(), 40'000'000U / 1'100U);
+  EXPECT_GT(hull.facet_count(), 10'000U);
+  EXPECT_LE(largest_outer_excess(hull, set.view()), 0.0L);
+  options.limits.max_memory_bytes = 200'000'000;
+  EXPECT_EQ(hull_of(set, options).status, HullStatus::kComplete);
 }
 
 TEST(LimitsLaw, MergingIsCountedInTheMemory) {
