@@ -117,11 +117,12 @@ std::vector<LocatedPoint> WidthApproximation::find_slabs(bool may_grow, std::opt
   const bool takes_in = may_grow && has_seen_all_ && !has_settled() && !growth_.is_late();
   const bool are_many = slabs->unfit.size() > slabs->count() / kFew && rounds_of_many_ < kRoundsOfMany;
   if (are_many) ++rounds_of_many_;
-  if (!takes_in || !are_many) hold_unfit(*space_, growth_.coordinates(), slab_, *slabs);
-  if (takes_in) {
-    std::vector<LocatedPoint> far = far_above(slabs->unfit);
-    if (!far.empty()) return far;
-  }
+  std::vector<LocatedPoint> far;
+  if (takes_in && are_many) far = far_above(slabs->unfit);
+  if (!far.empty()) return far;
+  hold_unfit(*space_, growth_.coordinates(), slab_, *slabs);
+  if (takes_in && !are_many) far = far_above(slabs->unfit);
+  if (!far.empty()) return far;
   join_small_slabs(slab_, *slabs);
   return {};
 }
