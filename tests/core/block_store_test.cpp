@@ -60,6 +60,26 @@ TEST(BlockStore, BlocksKeepWhatIsWrittenIntoThem) {
   for (unsigned seed = 0; seed < 4; ++seed) EXPECT_TRUE(exercise(seed));
 }
 
+// Blocks of 16 MB, every second one free: its pages go, the others' contents stay.
+TEST(BlockStore, GivesBackThePagesOfFreePlacesAlone) {
+  constexpr std::size_t kBytes = std::size_t{1} << 24, kHugePage = std::size_t{1} << 21;
+  std::vector<Block> blocks;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    blocks.push_back({static_cast<std::uint32_t*>(take_block(kBytes)), kBytes / 4, 1000 * i + 1});
+    ASSERT_NE(blocks.back().words, nullptr);
+    std::iota(blocks.back().words, blocks.back().words + blocks.back().count, blocks.back().first);
+  }
+  for (const std::size_t i : {1U, 3U, 4U}) EXPECT_TRUE(give_block(blocks[i].words));
+  give_back_free_pages();
+  EXPECT_TRUE(is_kept(blocks[0]));
+  EXPECT_TRUE(is_kept(blocks[2]));
+  // A page that was given back reads as zero: the place is taken again, and at least six of its eight went.
+  auto* const again = static_cast<std::uint32_t*>(take_block(kBytes));
+  ASSERT_EQ(again, blocks[1].words);
+  EXPECT_GE(std::count(again, again + kBytes / 4, 0U) * 4, static_cast<std::ptrdiff_t>(6 * kHugePage));
+  for (const std::size_t i : {0U, 1U, 2U}) EXPECT_TRUE(give_block(blocks[i].words));
+}
+
 TEST(BlockStore, ThreadsTakeAndGiveAtTheSameTime) {
   std::vector<std::uint8_t> is_right(4);
   std::vector<std::thread> threads;
