@@ -32,8 +32,8 @@ constexpr std::uint64_t kFacetBytes = 5 + 4 + 8 + 32 + 4;
 /// [bytes] of a simplex that may be merged: cluster, place, flags; beside them the rows are copied once to
 /// get their order.
 constexpr std::uint64_t kMergeBytes = 64;
-/// [bytes] of a simplex for the slabs and facets of an approximate hull: 20 to 140, on 8-d gaussian points;
-/// the more the fewer merge.
+/// [bytes] of a simplex for slabs that overlap, or clusters under a rule, and their facets: 20 to 140, on 8-d
+/// gaussian points; the more the fewer merge.
 constexpr std::uint64_t kCoverBytes = 140;
 /// [bytes] of a facet that is a slab, and of each of its coordinates: of hulls in 5-d to 10-d whose simplices
 /// hardly merge, which take most, up to 145 in 8-d.
@@ -50,14 +50,12 @@ constexpr std::uint64_t kPageBytes = 10 * (std::uint64_t{1} << 21);
 
 }  // namespace
 
-/// [bytes] of a simplex in the end, when it may be merged with others, and when it is looked at for slabs.
-std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges,
-                                    bool covers) const {
+/// [bytes] of a simplex in the end, and when it may be merged with others.
+std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimension, bool merges) const {
   std::uint64_t bytes = 16 * work.rank + kFacetBytes + limits_.bytes_afterwards;
   // Of flat data the normals are longer than the planes and do not take their place.
   if (work.rank != dimension) bytes += 8 * dimension;
   if (merges) bytes += 16 * work.rank + kMergeBytes;
-  if (covers) bytes += kCoverBytes;
   return bytes;
 }
 
@@ -72,7 +70,7 @@ std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimensio
                                     std::uint64_t point_bytes) const {
   if (limits_.most_memory() == 0) return 0;
   if (gathering_ == Gathering::kCount) return rows_to_choose_from(work, dimension, point_bytes);
-  return rows_for(row_bytes(work, dimension, !work.shifted_points.empty(), false), point_bytes);
+  return rows_for(row_bytes(work, dimension, !work.shifted_points.empty()), point_bytes);
 }
 
 /// Facets for an eighth of the simplices, if so many are asked for: with more simplices points are less far
@@ -80,7 +78,7 @@ std::uint64_t WorkLimits::most_rows(const GrowthWork& work, std::size_t dimensio
 std::uint64_t WorkLimits::rows_to_choose_from(const GrowthWork& work, std::size_t dimension,
                                               std::uint64_t point_bytes) const {
   constexpr std::uint64_t kSimplicesOfFacet = 8;
-  const std::uint64_t row = row_bytes(work, dimension, false, false) - kFacetBytes + kCountBytes;
+  const std::uint64_t row = row_bytes(work, dimension, false) - kFacetBytes + kCountBytes;
   const std::uint64_t facet = chosen_facet_bytes(work);
   const std::uint64_t most_facets = limits_.most_memory() / facet + 1;
   return std::max(rows_for(row + facet / kSimplicesOfFacet, point_bytes),
@@ -101,14 +99,14 @@ std::uint64_t WorkLimits::most_facets(const GrowthWork& work, std::uint64_t poin
 bool WorkLimits::has_memory_to_cover(const GrowthWork& work, std::size_t dimension,
                                      std::uint64_t point_bytes) const {
   if (limits_.most_memory() == 0) return true;
-  return work.complex.row_count <= rows_for(row_bytes(work, dimension, true, true), point_bytes);
+  return work.complex.row_count <= rows_for(row_bytes(work, dimension, true) + kCoverBytes, point_bytes);
 }
 
 bool WorkLimits::has_memory_for_slabs(const GrowthWork& work, std::size_t dimension,
                                       std::uint64_t point_bytes, std::uint64_t slabs,
                                       bool looks_further) const {
   if (limits_.most_memory() == 0) return true;
-  std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false);
+  std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty());
   if (looks_further) bytes_a_row += kCoveringBytes;
   const std::uint64_t slab_bytes = slabs * (kSlabBytes + kSlabCoordinate * dimension);
   return work.complex.row_count <= rows_for(bytes_a_row, point_bytes + slab_bytes);
@@ -117,8 +115,8 @@ bool WorkLimits::has_memory_for_slabs(const GrowthWork& work, std::size_t dimens
 bool WorkLimits::has_memory_to_search(const GrowthWork& work, std::size_t dimension,
                                       std::uint64_t point_bytes, std::uint64_t points) const {
   if (limits_.most_memory() == 0) return true;
-  const std::uint64_t bytes_a_row = row_bytes(work, dimension, !work.shifted_points.empty(), false) +
-                                    4 * work.rank + 8 * dimension + kSearchBytes;
+  const std::uint64_t bytes_a_row =
+      row_bytes(work, dimension, !work.shifted_points.empty()) + 4 * work.rank + 8 * dimension + kSearchBytes;
   const std::uint64_t bytes_of_points = point_bytes + points * dimension * kSearchedCoordinate;
   return work.complex.row_count <= rows_for(bytes_a_row, bytes_of_points);
 }

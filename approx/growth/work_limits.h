@@ -62,7 +62,7 @@ class WorkLimits {
   double affordable_products(const GrowthWork& work, double part, bool is_stopped) const;
 
  private:
-  std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges, bool covers) const;
+  std::uint64_t row_bytes(const GrowthWork& work, std::size_t dimension, bool merges) const;
   std::uint64_t rows_to_choose_from(const GrowthWork& work, std::size_t dimension,
                                     std::uint64_t point_bytes) const;
   static std::uint64_t chosen_facet_bytes(const GrowthWork& work);

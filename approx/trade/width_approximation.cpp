@@ -119,12 +119,12 @@ std::vector<LocatedPoint> WidthApproximation::find_slabs(bool may_grow, std::opt
   if (are_many) ++rounds_of_many_;
   std::vector<LocatedPoint> far;
   if (takes_in && are_many) far = far_above(slabs->unfit);
-  if (!far.empty()) return far;
-  hold_unfit(*space_, growth_.coordinates(), slab_, *slabs);
-  if (takes_in && !are_many) far = far_above(slabs->unfit);
-  if (!far.empty()) return far;
-  join_small_slabs(slab_, *slabs);
-  return {};
+  if (far.empty()) {
+    hold_unfit(*space_, growth_.coordinates(), slab_, *slabs);
+    if (takes_in) far = far_above(slabs->unfit);
+  }
+  if (far.empty()) join_small_slabs(slab_, *slabs);
+  return far;
 }
 
 /// Is there time for another round, the last one having taken so long?

@@ -27,18 +27,14 @@ constexpr std::uint64_t kRowsBeforeStars = std::uint64_t{1} << 18;
 /// time that stars take more is not worth the memory.
 constexpr double kMostComplexBytes = 0x1p29, kMostOfInput = 2.0, kLargeInput = 0x1p26;
 
-std::uint64_t vertices_of(const GrowthWork& work) { return work.counters.insertions + work.rank + 1; }
-
-std::uint64_t simplices_of(const GrowthWork& work) { return work.complex.row_count - work.free_count; }
-
 /// How simplices rise with vertices: as a power of them that falls towards 1 (points on a sphere, whose facets
 /// rise as its area does in the end), from 2.3 at 16,384 simplices in 8-d.
 struct RiseOfSimplices {
   double vertices = 0.0, simplices = 0.0, exponent = 2.0;
 
   /// The hull has grown so far, to twice as many simplices or so.
-  void note(const GrowthWork& work) {
-    const double now = static_cast<double>(vertices_of(work)), rows = static_cast<double>(simplices_of(work));
+  void note(std::size_t vertex_count, std::size_t simplex_count) {
+    const double now = static_cast<double>(vertex_count), rows = static_cast<double>(simplex_count);
     if (vertices > 0.0 && now > vertices && rows > simplices)
       exponent = std::log(rows / simplices) / std::log(now / vertices);
     vertices = now;
@@ -99,7 +95,7 @@ bool WidthApproximation::will_take_in_all() const {
   // Simplices rise about with the square of vertices, and somewhat faster in many dimensions.
   constexpr double kFaster = 8.0;
   const double more = static_cast<double>(known) / static_cast<double>(work.most_vertices());
-  const double rows = kFaster * more * more * static_cast<double>(simplices_of(work));
+  const double rows = kFaster * more * more * static_cast<double>(live_count());
   // The machine's memory changes nothing.
   if (growth_.options().limits.max_memory_bytes > 0 && rows > static_cast<double>(growth_.most_rows()))
     return false;
@@ -114,15 +110,14 @@ void WidthApproximation::grow_in_stages() {
     growth_.grow_to(outside_width_, 0, HUGE_VAL);
     return;
   }
-  const auto simplices = [&] { return simplices_of(growth_.work()); };
   const auto has_paused = [&](std::uint64_t enough, double height) {
     return !growth_.grow_to(outside_width_, enough, height) && !growth_.is_limited();
   };
-  if (!has_paused(kEnoughAtHalf, kGrowthShareOfHuge * slab_) || simplices() > kVeryManySimplices) return;
+  if (!has_paused(kEnoughAtHalf, kGrowthShareOfHuge * slab_) || live_count() > kVeryManySimplices) return;
   if (!has_paused(kEnoughAtHalf, kGrowthShareAtMost * slab_)) return;
   constexpr std::uint64_t kStep = kEnoughAtHalf / 16;
-  while (simplices() < kManySimplices && growth_.furthest_height() > kHalf * slab_)
-    if (!has_paused(std::min<std::uint64_t>(kManySimplices, simplices() + kStep), HUGE_VAL)) return;
+  while (live_count() < kManySimplices && growth_.furthest_height() > kHalf * slab_)
+    if (!has_paused(std::min<std::uint64_t>(kManySimplices, live_count() + kStep), HUGE_VAL)) return;
 }
 
 /// A hull without its complex, where that would be too large: for the memory that is allowed, or beside a
@@ -140,7 +135,7 @@ bool WidthApproximation::find_stars() {
     if (growth_.is_limited()) return false;
     const bool is_near = is_grown || growth_.furthest_height() <= kGrowthShareOfHuge * slab_;
     if (is_near && !earlier_.has_run_out) return false;
-    rise.note(growth_.work());
+    rise.note(growth_.work().most_vertices(), live_count());
     if (is_near || rows == enough) break;
   }
   // Who wants simplices gets those of the hull that others get: growth has paused where theirs does.
@@ -149,15 +144,14 @@ bool WidthApproximation::find_stars() {
   // spheres. All points that are left may be vertices.
   const GrowthWork& work = growth_.work();
   const double rank = static_cast<double>(work.rank);
-  const double vertices = static_cast<double>(vertices_of(work));
+  const double vertices = static_cast<double>(work.most_vertices());
   const double more = 1.0 + static_cast<double>(work.points_outside) / vertices;
   const double fall = std::max(1.0, growth_.furthest_height() / (kGrowthShareOfHuge * slab_));
   // Vertices rise with about half of that exponent on spheres; on other sets slower.
   are_stars_in_vain_ =
       vertices * std::min(more, std::pow(fall, (rank - 1.0) / 4.0)) > static_cast<double>(kMostStarVertices);
   if (are_stars_in_vain_) return false;
-  const double rows =
-      std::min(rise.foreseen(more), static_cast<double>(enough) * std::pow(fall, (rank - 1.0) / 3.0));
+  const double rows = std::min(rise.foreseen(more), rise.simplices * std::pow(fall, (rank - 1.0) / 3.0));
   const bool is_too_large =
       input_bytes_ >= kLargeInput &&
       rows * (16.0 * rank + 5.0) > std::max(kMostComplexBytes, kMostOfInput * input_bytes_);
@@ -174,7 +168,7 @@ bool WidthApproximation::take_star_hull(double rows) {
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));
   star_hull_ = find_star_hull(growth_, factor_, area.factor, slab_, share * slab_);
   if (!star_hull_) {
-    if (growth_.most_rows() > 0) give_back_free_pages();
+    give_back_free_pages();
     return false;
   }
   hull_.status = HullStatus::kComplete;
