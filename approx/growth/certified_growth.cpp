@@ -179,7 +179,7 @@ bool CertifiedGrowth::grow_exactly() {
     hull_.status = status_of(stop);
     seconds(Phase::kGrowth) += seconds_since(phase_start);
     if (is_found_otherwise_) {
-      drop_paused();
+      drop_grower();
       report_counters();
       return true;
     }
@@ -195,6 +195,7 @@ bool CertifiedGrowth::grow_exactly() {
     if (!repaired) break;
     ++hull_.statistics.repair_rounds;
   }
+  drop_grower();
   constexpr double kManyShifts = 1000.0;
   const bool leaves_some_out =
       work_.counters.set_aside > 0 && hull_.max_outside_gauge > kManyShifts * work_.options.shift;
@@ -240,7 +241,6 @@ bool CertifiedGrowth::grow_to(double outside_width, std::uint64_t enough_rows, d
 void CertifiedGrowth::locate_left_out(double useful_slack) {
   if (is_found_otherwise_) return;
   forget_waiting();  // what is left out goes back by `repair`
-  drop_paused();
   const Clock::time_point begin = Clock::now();
   std::uint64_t searched_all = 0;
   tell(Phase::kCertify, work_.points_outside, furthest_height());

@@ -76,8 +76,8 @@ class CertifiedGrowth {
   /// back.
   void leave_out_others() { forget_outside(work_); }
 
-  /// Growth that has paused will not soon go on: its lists and marks are given back.
-  void drop_paused() { work_.paused.reset(); }
+  /// Growth will not soon go on: its lists and marks are given back.
+  void drop_grower() { work_.grower.reset(); }
   GrowthWork& work() { return work_; }
   const double* coordinates() const { return coordinates_.data(); }
   const PointView& input() const { return points_; }

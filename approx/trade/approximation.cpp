@@ -179,9 +179,14 @@ void Approximation::join_small_slabs(double width, DualFacets& facets) const {
                       most, facets);
 }
 
-/// Where the points left out are, to a twentieth of what growth left out.
-void Approximation::locate_left_out(double outside_width) {
+/// Where the points left out are, to a twentieth of what growth left out. It may soon go on.
+void Approximation::locate_and_go_on(double outside_width) {
   growth_.locate_left_out(0.05 * outside_width / lengths_.largest_extent);
+}
+
+void Approximation::locate_left_out(double outside_width) {
+  locate_and_go_on(outside_width);
+  growth_.drop_grower();
 }
 
 /// Puts back what was left out and is further outside than this.

@@ -69,6 +69,7 @@ class Approximation {
   std::vector<LocatedPoint> far_above(std::span<const std::uint32_t> simplices);
   Offenders add_offenders(const Covering& covering, const TrueWidths& widths, double width);
 
+  void locate_and_go_on(double outside_width);
   void locate_left_out(double outside_width);
   void take_in_outside(double outside_width);
   void take_in_alone(std::span<const PointId> left_out);

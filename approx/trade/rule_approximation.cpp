@@ -23,6 +23,7 @@ constexpr int kRoundsOfLocating = 24, kRoundsOfSearch = 96;
 ApproximateFacets RuleApproximation::run() {
   ApproximateFacets found;
   grow_outside_width();
+  growth_.drop_grower();
   if (accuracy_.merges_neighbours() && growth_.may_cover()) found.clusters = merge();
   return found;
 }
@@ -32,10 +33,10 @@ void RuleApproximation::grow_outside_width() {
   hull_.chosen.outside_width = width;
   if (width > 0.0) growth_.grow_from_some();  // a search over all follows
   if (growth_.grow_to(width, 0, 0.0) && width > 0.0 && search_outside(width)) return;
-  locate_left_out(width);
+  locate_and_go_on(width);
   for (int round = 0; round < kRoundsOfLocating && !growth_.is_limited() && growth_.repair(); ++round) {
     growth_.grow_to(width, 0, 0.0);
-    locate_left_out(width);
+    locate_and_go_on(width);
   }
 }
 
@@ -51,7 +52,7 @@ bool RuleApproximation::search_outside(double width) {
   std::vector<PointId> points = growth_.unproven_points();
   const std::size_t planes = growth_.work().complex.row_count - growth_.work().free_count;
   if (merges || 2 * points.size() < growth_.work().point_count || points.size() < planes) {
-    locate_left_out(width);
+    locate_and_go_on(width);
     certifies = !merges && growth_.left_out().size() >= kWorthCertifying;
     points = growth_.left_out_points(certifies);
   }

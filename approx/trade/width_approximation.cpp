@@ -34,6 +34,7 @@ WidthApproximation::WidthApproximation(const ApproximationTask& task)
 ApproximateFacets WidthApproximation::run() {
   ApproximateFacets found;
   found.clusters = find_facets();
+  growth_.drop_grower();
   if (hull_.status == HullStatus::kComplete) hull_.status = limit_;
   found.determinants = std::move(determinants_);
   found.star_hull = std::move(star_hull_);
@@ -188,6 +189,7 @@ FacetClusters WidthApproximation::find_facets() {
       take_in_outside(outside_width_);
       continue;
     }
+    growth_.drop_grower();
     std::optional<DualFacets> slabs;
     const std::vector<LocatedPoint> far = find_slabs(may_grow, slabs);
     if (!far.empty()) {

@@ -58,15 +58,15 @@ struct RiseOfSimplices {
 
 }  // namespace
 
-/// Growth for the slabs; then it is known where the points left out are.
+/// Growth for the slabs, which may soon go on; then it is known where the points left out are.
 void WidthApproximation::grow() {
   grow_in_stages();
   growth_.work().options.by_gauge = false;
-  locate_left_out(outside_width_);
+  locate_and_go_on(outside_width_);
   for (int round = 0; round < kRounds && outside_width_ == 0.0 && !growth_.is_limited() && growth_.repair();
        ++round) {
     growth_.grow_to(outside_width_, 0, HUGE_VAL);
-    locate_left_out(outside_width_);
+    locate_and_go_on(outside_width_);
   }
 }
 
@@ -162,7 +162,7 @@ bool WidthApproximation::find_stars() {
 
 /// Goes on without the complex. `rows`: simplices that the hull will about have.
 bool WidthApproximation::take_star_hull(double rows) {
-  growth_.drop_paused();
+  growth_.drop_grower();
   const double share =
       rows > static_cast<double>(kVeryManySimplices) ? kGrowthShareOfHuge : kGrowthShareAtMost;
   const ScaledFactor area = scale_factor(gradient_factor(frame_, LengthUnit()));

@@ -37,7 +37,7 @@ bool Grower<D>::room_for_cone() {
   return rows_for_cone() <= row_end();
 }
 
-/// After a pause: are points and tables where they were, and as many threads to be had?
+/// Before it goes on: are points and tables where they were, and as many threads to be had?
 template <std::size_t D>
 bool Grower<D>::may_go_on() const {
   const SimplicialComplex& complex = work_.complex;

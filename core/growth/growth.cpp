@@ -17,7 +17,7 @@ namespace {
 
 /// Before a hull begins: nothing is left of one before, and no point has a place.
 void clear_work(GrowthWork& work) {
-  work.paused.reset();
+  work.grower.reset();
   work.complex = SimplicialComplex();
   work.complex.rank = work.rank;
   work.free_rows = HugeArray<std::uint32_t>();
@@ -210,7 +210,7 @@ void make_room_for(GrowthWork& work, std::size_t rows) {
 }
 
 GrownHull take_grown(GrowthWork& work) {
-  work.paused.reset();
+  work.grower.reset();
   forget_outside(work);
   return {std::move(work.complex), std::move(work.free_rows), work.free_count, work.counters};
 }

@@ -127,12 +127,13 @@ struct GrowthWork {
   PartingRecord parting;
   bool measure_phases = false;  ///< clock every insertion's phases (costs a few percent)
 
-  /// What growth that has paused goes on with: its threads, lists and marks, and what it has learned of the
-  /// machine. May be dropped at any time, to have the memory: the next call of `grow` makes its own.
-  std::shared_ptr<void> paused;
+  /// What growth that has paused or come to its end goes on with: its threads, lists and marks, and what it
+  /// has learned of the machine. May be dropped at any time, to have the memory: the next call of `grow` makes
+  /// its own.
+  std::shared_ptr<void> grower;
 
   GrowthWork() = default;
-  GrowthWork(const GrowthWork&) = delete;  // what has paused knows where the work is
+  GrowthWork(const GrowthWork&) = delete;  // its grower knows where it is
   GrowthWork& operator=(const GrowthWork&) = delete;
 
   /// The complex has no more vertices than those of the first simplex and the points added.

@@ -27,10 +27,10 @@ namespace HWY_NAMESPACE {
 
 template <std::size_t D>
 GrowthStop run_in_dimension(GrowthWork& work) {
-  auto grower = std::static_pointer_cast<Grower<D>>(std::exchange(work.paused, nullptr));
+  auto grower = std::static_pointer_cast<Grower<D>>(std::exchange(work.grower, nullptr));
   if (!grower || !grower->may_go_on()) grower = std::make_shared<Grower<D>>(work);
   const GrowthStop stop = grower->run();
-  if (stop == GrowthStop::kPaused) work.paused = std::move(grower);
+  if (stop == GrowthStop::kPaused || stop == GrowthStop::kNoOutsidePoints) work.grower = std::move(grower);
   return stop;
 }
 

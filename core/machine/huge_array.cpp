@@ -17,7 +17,7 @@ constexpr std::size_t kHugePageBytes = std::size_t{1} << 21;
 constexpr std::size_t kLineBytes = 64;
 // In small pages, unless all of it will soon be written: of twenty tables most hold little, and a huge page
 // for each would be memory that nobody needs.
-constexpr std::size_t kSmallPartBytes = std::size_t{1} << 19;
+constexpr std::size_t kSmallPartBytes = std::size_t{1} << 16;
 static_assert(kLeastPagesBytes == kSmallestBlock);
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
@@ -65,10 +65,15 @@ void release_pages(void* address, std::size_t bytes) {
 }
 
 void discard_pages(void* from, void* to) {
-  if (is_in_store(from)) return;
   const std::size_t begin = round_up(reinterpret_cast<std::uintptr_t>(from), kPageBytes);
   const std::size_t end = reinterpret_cast<std::uintptr_t>(to) / kPageBytes * kPageBytes;
   if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+}
+
+void discard_tail(void* from, void* to) {
+  if (is_in_store(from)) return;
+  discard_pages(reinterpret_cast<void*>(round_up(reinterpret_cast<std::uintptr_t>(from), kHugePageBytes)),
+                to);
 }
 
 }  // namespace ndhull

@@ -19,9 +19,11 @@ void* reserve_pages(std::size_t bytes, std::size_t at_once);
 void* take_pages(std::size_t bytes);
 /// Gives back what either of them returned.
 void release_pages(void* address, std::size_t bytes);
-/// Gives the memory of whole pages in [from, to) back to the system, unless it is the store's; the addresses
-/// stay reserved.
+/// Gives the memory of whole pages in [from, to) back to the system; the addresses stay reserved.
 void discard_pages(void* from, void* to);
+/// The same for a table's rows from there on, unless they are the store's: of whole huge pages. A part of one
+/// would divide the page, whose other part then comes to the program once more in 4 kB each.
+void discard_tail(void* from, void* to);
 
 /// Array of plain records that can grow in place up to the capacity given at the start. Growing costs
 /// nothing but the pages that are touched: references stay valid, peak memory is the final size.
@@ -59,10 +61,10 @@ class HugeArray {
   const T& operator[](std::size_t index) const { return data_[index]; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Returns the memory behind elements [count, capacity) to the system.
+  /// Returns the memory behind elements [count, capacity) to the system, but for up to a huge page.
   void discard_from(std::size_t count) {
     if (data_ != nullptr && bytes_for(capacity_) >= kLeastPagesBytes)
-      discard_pages(data_ + count, data_ + capacity_);
+      discard_tail(data_ + count, data_ + capacity_);
   }
 
  private:
