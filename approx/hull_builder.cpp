@@ -278,7 +278,7 @@ void HullBuilder::make_facets(const KnownHighest& known) {
     is_vertex_ = corners();
   } else {
     is_vertex_ = find_vertices_of_shifted(growth_->work());
-    keep_enough_vertices(complex(), hull_.layout_, is_vertex_);
+    if (is_vertex_ != corners()) keep_enough_vertices(complex(), hull_.layout_, is_vertex_);
   }
   for (std::uint32_t id = 0; id < points_.rows; ++id)
     if (is_vertex_[id]) hull_.vertices.push_back(PointId{id});

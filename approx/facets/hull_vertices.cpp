@@ -70,19 +70,24 @@ bool normals_span(const SimplicialComplex& complex, const FacetLayout& layout,
 
 void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& layout,
                           std::vector<bool>& is_vertex) {
+  for (std::uint32_t facet = 0; facet < layout.simplicial; ++facet)
+    for (const SimplexId simplex : layout.simplices_of(FacetId{facet}))
+      for (const PointId id : complex.vertices(simplex)) is_vertex[id.value] = true;
+  // Of the others only facets with corners that are no vertices are looked at.
   std::vector<std::uint32_t> facets_at(is_vertex.size(), 0), last_facet(is_vertex.size(), FacetId::kNone);
-  for (std::uint32_t facet = 0; facet < layout.facets; ++facet) {
+  std::vector<std::uint32_t> found(layout.facets - layout.simplicial,
+                                   static_cast<std::uint32_t>(complex.rank));
+  for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {
     for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
       for (const PointId id : complex.vertices(simplex)) {
-        if (facet < layout.simplicial) is_vertex[id.value] = true;
-        if (last_facet[id.value] == facet) continue;
+        if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
         last_facet[id.value] = facet;
         ++facets_at[id.value];
+        found[facet - layout.simplicial] = 0;
       }
     }
   }
-  const std::vector<std::uint32_t> none_found(layout.facets - layout.simplicial, 0);
-  keep_enough_of_merged(complex, layout, facets_at, none_found, is_vertex);
+  keep_enough_of_merged(complex, layout, facets_at, found, is_vertex);
 }
 
 std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLayout& layout,

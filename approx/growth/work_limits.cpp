@@ -60,7 +60,7 @@ std::uint64_t WorkLimits::row_bytes(const GrowthWork& work, std::size_t dimensio
 }
 
 std::uint64_t WorkLimits::rows_for(std::uint64_t bytes_a_row, std::uint64_t point_bytes) const {
-  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.most_memory() / 8);
+  const std::uint64_t whole_pages = std::min(kPageBytes, limits_.most_memory() / 6);
   const std::uint64_t used = point_bytes + whole_pages;
   const std::uint64_t left = limits_.most_memory() > used ? limits_.most_memory() - used : 0;
   return std::max<std::uint64_t>(1, left / bytes_a_row);

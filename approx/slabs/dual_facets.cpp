@@ -15,9 +15,9 @@ PlaneTops::PlaneTops(const WidthSpace& space, PointsAbove above)
     : space_(space), above_(above), normal_(space.rank()) {
   constexpr std::size_t kFew = 4;  // a part of all: the product with all of them is quicker for each
   const std::size_t left_out = space.table().count() - space.vertex_count();
-  if (above != PointsAbove::kLeftOut || kFew * left_out > space.table().count()) return;
+  if (!above.are_left_out || kFew * left_out > space.table().count()) return;
   if (left_out == 0) {
-    above_ = PointsAbove::kNoPoint;
+    above_.are_left_out = false;
   } else {
     left_out_ = SupportTable(
         space.rank(), {space.row(static_cast<std::uint32_t>(space.vertex_count())), left_out * space.rank()});
@@ -25,9 +25,10 @@ PlaneTops::PlaneTops(const WidthSpace& space, PointsAbove above)
 }
 
 double PlaneTops::of_simplex(const double* plane, double length) {
-  if (above_ == PointsAbove::kNoPoint) return 1.0;
+  const double top = 1.0 + above_.vertices;
+  if (!above_.are_left_out) return top;
   space_.normal_of({plane, space_.rank()}, normal_.data());
-  double height = 1.0 / length, furthest = 0.0;  // n.z = a.y / |R a|
+  double height = top / length, furthest = 0.0;  // n.z = a.y / |R a|
   if (left_out_.count() > 0) {
     left_out_.find(normal_.data(), work_.products, furthest);
   } else if (space_.is_large()) {

@@ -76,11 +76,13 @@ template <std::size_t D>
   return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-/// What is above a simplex' plane.
-enum class PointsAbove {
-  kNoPoint,  ///< none of the space by more than rounding
-  kLeftOut,  ///< points that are no vertices, perhaps
-  kAny,      ///< vertices too: their shifts, and what rounding has made of the planes
+/// What is above a simplex' own plane by more than rounding.
+struct PointsAbove {
+  bool are_left_out = false;  ///< points that are no vertices, perhaps
+  double vertices = 0.0;      ///< vertices, by no more than this, since growth has moved some inwards [gauge]
+
+  bool are_none() const { return !are_left_out && !are_shifted(); }
+  bool are_shifted() const { return vertices > 0.0; }
 };
 
 /// The largest a.y of any point of the space.

@@ -50,7 +50,7 @@ class SeedPlanes {
     return {plane, 1.0, length, 1.0 - width_ * length};
   }
 
-  bool may_have_points_above() const { return above_ != PointsAbove::kNoPoint; }
+  bool may_have_points_above() const { return !above_.are_none(); }
   /// To the highest point of the space. Cost  as PlaneTops.
   void raise_top(SeedPlane<D>& seed_plane) {
     seed_plane.top = tops_.of_simplex(seed_plane.plane.data(), seed_plane.length);

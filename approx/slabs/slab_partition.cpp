@@ -100,7 +100,7 @@ class Partitioner {
 
   /// Is it worth growing overlapping slabs, and choosing a few of them?
   bool is_worth_choosing(const SlabSizes& sizes) const {
-    return above_ != PointsAbove::kAny && space_.share_of_others() > kSomeLeftOut &&
+    return !above_.are_shifted() && space_.share_of_others() > kSomeLeftOut &&
            sizes.typical > kTurnedOfSome && expected_slabs(sizes) < kFewSlabs;
   }
 
@@ -373,7 +373,7 @@ std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex,
     const auto prepare = [&](std::size_t begin, std::size_t end) { partitioner.prepare(begin, end); };
     // One thread finds them while it has the rows near; not where points left out may have to come in before.
     const bool finds_beside = find_determinants && has_more_threads();
-    const bool finds_first = find_determinants && !finds_beside && above == PointsAbove::kNoPoint;
+    const bool finds_first = find_determinants && !finds_beside && above.are_none();
     if (finds_first && walks) {
       find_determinants(prepare);
     } else {

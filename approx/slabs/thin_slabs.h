@@ -25,7 +25,7 @@ enum class GrownStars { kOfHalf, kFromTwo };
 /// Shapes  facets: of `complex`, with each row's mark, taken are the free ones alone, and room for a member
 ///         a live row and rank more. coordinates: points x rank, in the frame, of all points that the space
 ///         may name. gradient_factor: rank x rank. find_determinants: asked for them once.
-/// Above   not PointsAbove::kAny.
+/// Above   no vertices.
 /// Not promised  that facets of one simplex are less than `width` thick: where points are left out far above
 ///           it, no plane may be found (unfit tells).
 /// Cost      rank products and rank random reads of 2 bytes (4 where points are many) a simplex, by all

@@ -143,8 +143,10 @@ std::span<const double> Approximation::find_determinants(const BlockWork& also) 
 }
 
 PointsAbove Approximation::points_above() const {
-  if (!growth_.work().shifted_points.empty()) return PointsAbove::kAny;
-  return is_convex() ? PointsAbove::kNoPoint : PointsAbove::kLeftOut;
+  constexpr double kShifts = 4.0;  // none is moved by more than two, and planes are as right as rounding lets
+  const GrowthWork& work = growth_.work();
+  return {.are_left_out = space_->vertex_count() < space_->table().count(),
+          .vertices = work.shifted_points.empty() ? 0.0 : kShifts * work.options.shift};
 }
 
 /// Disjoint slabs, the small ones of which have joined a neighbour where both fit into one. Nothing:
@@ -160,7 +162,7 @@ std::optional<DualFacets> Approximation::find_disjoint_slabs(double width) {
 std::optional<DualFacets> Approximation::find_single_slabs(double width, PartitionTask& task) {
   const PointsAbove above = points_above();
   FindDeterminants find;
-  if (above != PointsAbove::kAny && finds_determinants_)
+  if (!above.are_shifted() && finds_determinants_)
     find = [this](const BlockWork& also) { return find_determinants(also); };
   return partition_into_slabs(growth_.work().complex, *space_, growth_.coordinates(), factor_, above, width,
                               find, task);
@@ -171,7 +173,7 @@ void Approximation::join_small_slabs(double width, DualFacets& facets) const {
   const std::size_t simplices = facets.begin.back();
   const std::size_t mean = simplices / facets.count();
   // The exact hull of shifted points takes longer, since coplanar facets are looked for: so may this.
-  const bool has_time = points_above() == PointsAbove::kAny && mean >= kLargeOfShifted;
+  const bool has_time = points_above().are_shifted() && mean >= kLargeOfShifted;
   std::size_t most = has_time ? mean : std::max<std::size_t>(1, mean / kPartOfMean);
   // Of degenerate data slabs start from planes that rounding has drawn: two may share what one could hold.
   if (is_degenerate() || has_few_small(facets.count(), simplices)) most = simplices;

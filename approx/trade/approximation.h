@@ -78,9 +78,7 @@ class Approximation {
   PointsAbove points_above() const;
   bool is_degenerate() const { return shares_planes(growth_.work(), growth_.coordinates()); }
   /// No point of the space is above any simplex's plane.
-  bool is_convex() const {
-    return space_->vertex_count() == space_->table().count() && growth_.work().shifted_points.empty();
-  }
+  bool is_convex() const { return points_above().are_none(); }
   std::size_t live_count() const { return growth_.work().complex.row_count - growth_.work().free_count; }
   /// Slabs thinner than this hold what rounding lets them: where even they leave no hull, the exact facets
   /// are the answer.

@@ -9,11 +9,16 @@ namespace ndhull {
 
 /// Fewer bytes are the allocator's.
 inline constexpr std::size_t kLeastPagesBytes = std::size_t{1} << 16;
+/// Of a table that is reserved, in small pages: as many take the system as long as a huge one and a half. Where
+/// memory is limited: then it takes the time of ten.
+inline constexpr std::size_t kFirstPartBytes = std::size_t{1} << 16,
+                             kFirstPartOfLimited = std::size_t{1} << 19;
 
-/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages. It reads as zero.
-/// `at_once`: so many bytes will soon be written; where they are few the first part is in small pages.
+/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages, behind a first part in
+/// small ones: of twenty tables most hold little, and a huge page for each would be memory that nobody needs.
+/// No such part where as many bytes will soon be written (`at_once`). It reads as zero.
 /// Throws std::bad_alloc when the address space is refused.
-void* reserve_pages(std::size_t bytes, std::size_t at_once);
+void* reserve_pages(std::size_t bytes, std::size_t at_once, std::size_t first_part);
 /// The same for what will all be written at once: from the store of blocks, if it takes so many bytes. What
 /// is in it may be anything.
 void* take_pages(std::size_t bytes);
@@ -21,8 +26,8 @@ void* take_pages(std::size_t bytes);
 void release_pages(void* address, std::size_t bytes);
 /// Gives the memory of whole pages in [from, to) back to the system; the addresses stay reserved.
 void discard_pages(void* from, void* to);
-/// The same for a table's rows from there on, unless they are the store's: of whole huge pages. A part of one
-/// would divide the page, whose other part then comes to the program once more in 4 kB each.
+/// The same for a table's rows from there on, unless they are the store's. A huge page is only divided where
+/// the table keeps less than a quarter of it: the system brings that part again, 4 kB at a time.
 void discard_tail(void* from, void* to);
 
 /// Array of plain records that can grow in place up to the capacity given at the start. Growing costs
@@ -34,9 +39,9 @@ class HugeArray {
 
  public:
   HugeArray() = default;
-  /// `at_once`: so many elements will soon be written.
-  explicit HugeArray(std::size_t capacity, std::size_t at_once = 0)
-      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T)))),
+  /// `at_once`: so many elements will soon be written. first_part: bytes in small pages, of 4096 each.
+  explicit HugeArray(std::size_t capacity, std::size_t at_once = 0, std::size_t first_part = kFirstPartBytes)
+      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T), first_part))),
         capacity_(capacity) {}
   /// An array that will not grow, whose elements may be anything until they are written: its memory is the
   /// one that the table before it had (core/machine/block_store.h).
@@ -61,7 +66,7 @@ class HugeArray {
   const T& operator[](std::size_t index) const { return data_[index]; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Returns the memory behind elements [count, capacity) to the system, but for up to a huge page.
+  /// Returns the memory behind elements [count, capacity) to the system, but for up to three quarters of a huge page.
   void discard_from(std::size_t count) {
     if (data_ != nullptr && bytes_for(capacity_) >= kLeastPagesBytes)
       discard_tail(data_ + count, data_ + capacity_);

@@ -27,7 +27,7 @@ struct Clustered {
     solve_outwards(complex, sphere.coordinates.data(), {}, determinants);
     PartitionTask task;
     std::optional<DualFacets> facets = partition_into_slabs(
-        complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint, width,
+        complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove(), width,
         [&](const BlockWork& also) {
           also(0, complex.row_count);
           return std::span<const double>(determinants);

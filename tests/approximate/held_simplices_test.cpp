@@ -42,8 +42,8 @@ struct CoarseHull {
   /// Nothing: so few slabs would do that they are not disjoint.
   std::optional<DualFacets> partition(double width) const {
     PartitionTask task;
-    return partition_into_slabs(work.complex, *space, coordinates.data(), factor, PointsAbove::kLeftOut,
-                                width, {}, task);
+    return partition_into_slabs(work.complex, *space, coordinates.data(), factor,
+                                PointsAbove{.are_left_out = true}, width, {}, task);
   }
   double product(std::span<const double> plane, PointId point) const {
     double sum = 0.0;

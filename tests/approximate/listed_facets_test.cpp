@@ -39,8 +39,8 @@ struct LaidOut {
     for (std::size_t k = 0; k < rank; ++k) factor[k * rank + k] = 1.0;
     PartitionTask task;
     std::optional<DualFacets> facets =
-        partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove::kNoPoint,
-                             0.15, FindDeterminants(), task);
+        partition_into_slabs(complex, *sphere.space, sphere.coordinates.data(), factor, PointsAbove(), 0.15,
+                             FindDeterminants(), task);
     FacetClusters clusters = clusters_of(std::move(*facets));
     layout = lay_out(complex, determinants, clusters, factor);
     points.dimension = rank;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "approx/slabs/segment_merge.h"
@@ -21,7 +22,7 @@ struct Slabs {
   explicit Slabs(const GrownSphere& grown) : sphere(grown), factor(grown.work.rank * grown.work.rank, 0.0) {
     for (std::size_t k = 0; k < grown.work.rank; ++k) factor[k * grown.work.rank + k] = 1.0;
   }
-  std::optional<DualFacets> partition(double width, PointsAbove above = PointsAbove::kNoPoint) const {
+  std::optional<DualFacets> partition(double width, PointsAbove above = {}) const {
     return partition_in(*sphere.space, width, above);
   }
   std::optional<DualFacets> partition_in(const WidthSpace& space, double width, PointsAbove above) const {
@@ -100,10 +101,10 @@ TEST(SlabPartitionLaw, OverlappingSlabsAreLookedForWhereFewHoldAllAndGrowthWasSh
   const Slabs slabs(sphere);
   const WidthSpace space = space_with_left_out(sphere, slabs);
   EXPECT_TRUE(slabs.partition(0.6));
-  EXPECT_FALSE(slabs.partition_in(space, 0.6, PointsAbove::kLeftOut));
-  EXPECT_TRUE(slabs.partition_in(space, 0.01, PointsAbove::kLeftOut));
+  EXPECT_FALSE(slabs.partition_in(space, 0.6, PointsAbove{.are_left_out = true}));
+  EXPECT_TRUE(slabs.partition_in(space, 0.01, PointsAbove{.are_left_out = true}));
   // Not of data whose planes rounding has drawn.
-  EXPECT_TRUE(slabs.partition_in(space, 0.6, PointsAbove::kAny));
+  EXPECT_TRUE(slabs.partition_in(space, 0.6, PointsAbove{.vertices = 1e-12}));
 }
 
 TEST(SlabPartitionLaw, TurnedSlabsAreSlabsAndFewer) {
@@ -113,7 +114,8 @@ TEST(SlabPartitionLaw, TurnedSlabsAreSlabsAndFewer) {
     const WidthSpace space = space_with_left_out(sphere, slabs);
     for (const double width : {0.2, 0.25}) {
       const std::optional<DualFacets> plain = slabs.partition(width),
-                                      turned = slabs.partition_in(space, width, PointsAbove::kLeftOut);
+                                      turned =
+                                          slabs.partition_in(space, width, PointsAbove{.are_left_out = true});
       ASSERT_TRUE(plain && turned);
       expect_lists(sphere, *turned);
       expect_slabs(sphere, *turned, width);
@@ -124,16 +126,42 @@ TEST(SlabPartitionLaw, TurnedSlabsAreSlabsAndFewer) {
   }
 }
 
-TEST(SlabPartitionLaw, PointsAreLookedAtToTheSameEnd) {
+TEST(SlabPartitionLaw, ShiftedVerticesRaisePlanesAndNoMore) {
   const GrownSphere sphere("300 s D5 t4", 300);
   const Slabs slabs(sphere);
   const std::optional<DualFacets> known = slabs.partition(0.05),
-                                  asked = slabs.partition(0.05, PointsAbove::kAny);
+                                  asked = slabs.partition(0.05, PointsAbove{.vertices = 1e-12});
   ASSERT_TRUE(known && asked);
   EXPECT_EQ(known->begin, asked->begin);
   EXPECT_TRUE(
       std::equal(known->members.data(), known->members.data() + known->begin.back(), asked->members.data()));
-  for (const double top : asked->tops) EXPECT_NEAR(top, 1.0, 1e-12);
+  for (const double top : asked->tops) EXPECT_EQ(top, 1.0 + 1e-12);
+}
+
+// Of points on the faces of a cube, many of which share planes.
+TEST(SlabPartitionLaw, NoVertexIsFourShiftsAboveASimplex) {
+  for (const char* words : {"300 W0 D4 t1", "200 W0 D6 t2"}) {
+    const PointSet set = rbox(words);
+    std::vector<double> coordinates;
+    GrowthWork work;
+    const Frame frame = prepare_growth(set.view(), coordinates, work);
+    start_growth(work, frame.simplex, FirstPoints());
+    grow(work);
+    EXPECT_GE(work.shifted_points.size(), 20u) << words;
+    const std::vector<bool> is_vertex = find_corners(work);
+    double highest = 0.0;
+    for (std::uint32_t row = 0; row < work.complex.row_count; ++row) {
+      if (work.complex.state[row] != SimplexState::kLive) continue;
+      for (std::uint32_t id = 0; id < work.point_count; ++id) {
+        if (!is_vertex[id]) continue;
+        const double* point = coordinates.data() + std::size_t{id} * work.rank;
+        const auto plane = work.complex.plane(SimplexId{row});
+        highest = std::max(highest, std::inner_product(plane.begin(), plane.end(), point, -1.0));
+      }
+    }
+    EXPECT_GT(highest, work.options.shift) << words;
+    EXPECT_LT(highest, 4.0 * work.options.shift) << words;
+  }
 }
 
 TEST(SegmentMergeLaw, JoinedFacetsAreSlabsToo) {

@@ -46,7 +46,7 @@ struct ThinSlabs {
         [this](const BlockWork&) { return std::span<const double>(determinants); }, std::move(open));
   }
   DualFacets find(double width, std::size_t marked_points = 1000) const {
-    return find(width, *sphere.space, PointsAbove::kNoPoint, sphere.coordinates, marked_points);
+    return find(width, *sphere.space, PointsAbove(), sphere.coordinates, marked_points);
   }
 
   GrownSphere sphere;
@@ -167,7 +167,7 @@ TEST(ThinSlabsLaw, AreTheSameWithManyPointsInside) {
   const std::size_t points = slabs.sphere.work.complex.row_count + 1;
   coordinates.resize(3 * points);
   const WidthSpace space(3, slabs.factor, coordinates.data(), points, ids, {});
-  const DualFacets many = slabs.find(0.02, space, PointsAbove::kNoPoint, coordinates, points);
+  const DualFacets many = slabs.find(0.02, space, PointsAbove(), coordinates, points);
   EXPECT_EQ(slabs.find(0.02).seeds, many.seeds);
 }
 
@@ -228,7 +228,8 @@ TEST(ThinSlabsLaw, PointsLeftOutAreBelowThePlanesToo) {
                          vertices, others);
   const double width = 0.02;
   const auto find = [&](double below) {
-    return slabs.find(below, space, PointsAbove::kLeftOut, coordinates, coordinates.size() / slabs.rank);
+    return slabs.find(below, space, PointsAbove{.are_left_out = true}, coordinates,
+                      coordinates.size() / slabs.rank);
   };
   const DualFacets known = slabs.find(width), facets = find(width);
   EXPECT_EQ(facets.unfit.size(), 0U);
@@ -257,8 +258,8 @@ TEST(ThinSlabsExample, ThePartitionAsksForThemWhereSlabsHoldFew) {
   const auto partition = [&](double width) {
     PartitionTask task;
     return partition_into_slabs(slabs.sphere.work.complex, *slabs.sphere.space,
-                                slabs.sphere.coordinates.data(), slabs.factor, PointsAbove::kNoPoint, width,
-                                find, task);
+                                slabs.sphere.coordinates.data(), slabs.factor, PointsAbove(), width, find,
+                                task);
   };
   const std::optional<DualFacets> thin = partition(0.01);
   ASSERT_TRUE(thin);
