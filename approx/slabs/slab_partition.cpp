@@ -20,8 +20,8 @@
 namespace ndhull {
 namespace {
 
-/// Slabs that are grown to see how many simplices they hold.
-constexpr std::size_t kSamples = 64;
+/// Slabs that are grown to see how many simplices they hold; the second number, where these are an eighth of all.
+constexpr std::size_t kSamples = 64, kFewSamples = 16;
 /// Slabs are turned to what they hold from so many simplices on, which in the end are a tenth to a quarter
 /// fewer: where growth has left out so many points, in parts of the vertices, that it saved the time for it,
 /// and where slabs are so large that it hardly takes any. A plane among many points takes longer.
@@ -81,7 +81,8 @@ class Partitioner {
     constexpr std::size_t kStep = 27;  // prime to kSamples: the first few are from all over
     std::size_t sum = 0, slabs = 0;
     double inverse_sum = 0.0;
-    for (std::size_t i = 0; i < kSamples && 2 * sum < live_count_; ++i) {
+    for (std::size_t i = 0; i < (8 * sum < live_count_ ? kSamples : kFewSamples) && 2 * sum < live_count_;
+         ++i) {
       const std::size_t place = 2 * (i * kStep % kSamples) + 1;
       const auto row = static_cast<std::uint32_t>(place * complex_.row_count / (2 * kSamples));
       if (!is_live(row)) continue;
