@@ -256,7 +256,7 @@ class Grower {
   HugeArray<HorizonRidge> horizon_;
   HugeArray<std::uint32_t> new_rows_;
   const std::size_t most_rows_;
-  TableStages stages_;
+  const TableStages stages_;
   std::size_t threads_;
   std::unique_ptr<Team> team_;  // from the first loop on that other threads can help with
   std::vector<SearchShare> shares_;

@@ -60,7 +60,6 @@ template <std::size_t D>
 void Grower<D>::take_places(std::size_t kept) {
   SimplicialComplex& complex = work_.complex;
   const std::size_t rows = rows_with_room();
-  stages_.saves_memory = work_.options.most_table_rows != 0;
   planes_ = complex.planes.data();
   topology_ = complex.topology.data();
   state_ = complex.state.data();

@@ -200,8 +200,7 @@ std::size_t most_rows(std::size_t rank) {
 
 void make_room_for(GrowthWork& work, std::size_t rows) {
   SimplicialComplex& complex = work.complex;
-  const TableStages stages{most_rows(work.rank), work.options.foreseen_rows,
-                           work.options.most_table_rows != 0};
+  const TableStages stages{most_rows(work.rank), work.options.foreseen_rows};
   const std::size_t kept = complex.row_count, room = stages.rows_for(rows);
   move_to_stage(complex.planes, stages, kept, room, work.rank);
   move_to_stage(complex.topology, stages, kept, room, 2 * work.rank);

@@ -19,7 +19,6 @@ inline constexpr std::size_t kRowsOfStages[] = {512, 8192};
 struct TableStages {
   std::size_t most;          ///< in the last one
   std::size_t foreseen = 0;  ///< about so many are needed, so that there is one stage; 0: it is not known
-  bool saves_memory = false;
 
   /// Of tables that are to have `needed`.
   std::size_t rows_for(std::size_t needed) const {
@@ -40,8 +39,7 @@ template <class T>
 HugeArray<T> staged_table(const TableStages& stages, std::size_t rows, std::size_t per_row = 1,
                           std::size_t at_once = 0) {
   return stages.is_small(rows) ? HugeArray<T>::to_write(rows * per_row)
-                               : HugeArray<T>(rows * per_row, at_once * per_row,
-                                              stages.saves_memory ? kFirstPartOfLimited : kFirstPartBytes);
+                               : HugeArray<T>(rows * per_row, at_once * per_row);
 }
 
 /// Moves the table to a place with room for `rows`, of which `kept` are as they were and the others anything.

@@ -15,6 +15,9 @@ namespace {
 constexpr std::size_t kPageBytes = 4096;
 constexpr std::size_t kHugePageBytes = std::size_t{1} << 21;
 constexpr std::size_t kLineBytes = 64;
+// In small pages, unless all of it will soon be written: of twenty tables most hold little, and a huge page
+// for each would be memory that nobody needs.
+constexpr std::size_t kSmallPartBytes = std::size_t{1} << 19;
 static_assert(kLeastPagesBytes == kSmallestBlock);
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
@@ -28,10 +31,10 @@ void* allocate_small(std::size_t bytes) {
 }  // namespace
 
 // Placed so that huge pages can begin where the small part ends.
-void* reserve_pages(std::size_t bytes, std::size_t at_once, std::size_t first_part) {
+void* reserve_pages(std::size_t bytes, std::size_t at_once) {
   if (bytes < kLeastPagesBytes) return std::memset(allocate_small(bytes), 0, bytes);
   const std::size_t rounded = round_up(bytes, kPageBytes);
-  const std::size_t small_part = at_once < first_part ? first_part : 0;
+  const std::size_t small_part = at_once < kSmallPartBytes ? kSmallPartBytes : 0;
   const bool has_huge = rounded >= small_part + kHugePageBytes;
   const std::size_t mapped = has_huge ? rounded + kHugePageBytes : rounded;
   void* const address =
@@ -50,7 +53,7 @@ void* reserve_pages(std::size_t bytes, std::size_t at_once, std::size_t first_pa
 void* take_pages(std::size_t bytes) {
   if (bytes < kLeastPagesBytes) return allocate_small(bytes);
   void* const block = take_block(bytes);
-  return block != nullptr ? block : reserve_pages(bytes, bytes, kFirstPartBytes);
+  return block != nullptr ? block : reserve_pages(bytes, bytes);
 }
 
 void release_pages(void* address, std::size_t bytes) {

@@ -9,16 +9,11 @@ namespace ndhull {
 
 /// Fewer bytes are the allocator's.
 inline constexpr std::size_t kLeastPagesBytes = std::size_t{1} << 16;
-/// Of a table that is reserved, in small pages: as many take the system as long as a huge one and a half. Where
-/// memory is limited: then it takes the time of ten.
-inline constexpr std::size_t kFirstPartBytes = std::size_t{1} << 16,
-                             kFirstPartOfLimited = std::size_t{1} << 19;
 
-/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages, behind a first part in
-/// small ones: of twenty tables most hold little, and a huge page for each would be memory that nobody needs.
-/// No such part where as many bytes will soon be written (`at_once`). It reads as zero.
+/// Reserves `bytes` of address space (no memory is used yet) and asks for huge pages. It reads as zero.
+/// `at_once`: so many bytes will soon be written; where they are few the first part is in small pages.
 /// Throws std::bad_alloc when the address space is refused.
-void* reserve_pages(std::size_t bytes, std::size_t at_once, std::size_t first_part);
+void* reserve_pages(std::size_t bytes, std::size_t at_once);
 /// The same for what will all be written at once: from the store of blocks, if it takes so many bytes. What
 /// is in it may be anything.
 void* take_pages(std::size_t bytes);
@@ -39,9 +34,9 @@ class HugeArray {
 
  public:
   HugeArray() = default;
-  /// `at_once`: so many elements will soon be written. first_part: bytes in small pages, of 4096 each.
-  explicit HugeArray(std::size_t capacity, std::size_t at_once = 0, std::size_t first_part = kFirstPartBytes)
-      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T), first_part))),
+  /// `at_once`: so many elements will soon be written.
+  explicit HugeArray(std::size_t capacity, std::size_t at_once = 0)
+      : data_(static_cast<T*>(reserve_pages(bytes_for(capacity), at_once * sizeof(T)))),
         capacity_(capacity) {}
   /// An array that will not grow, whose elements may be anything until they are written: its memory is the
   /// one that the table before it had (core/machine/block_store.h).
