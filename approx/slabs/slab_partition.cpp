@@ -20,7 +20,7 @@
 namespace ndhull {
 namespace {
 
-/// Slabs that are grown to see how many simplices they hold; the second number, where these are an eighth of all.
+/// Slabs that are grown to see how many simplices they hold; fewer where these hold an eighth of all.
 constexpr std::size_t kSamples = 64, kFewSamples = 16;
 /// Slabs are turned to what they hold from so many simplices on, which in the end are a tenth to a quarter
 /// fewer: where growth has left out so many points, in parts of the vertices, that it saved the time for it,

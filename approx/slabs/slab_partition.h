@@ -44,8 +44,8 @@ struct PartitionTask {
 ///           it, no plane may be found (unfit tells).
 /// Cost      each simplex is met in one slab, with its neighbours; those that are tried as seeds and left for
 ///           later have their neighbours looked at for each time; in up to three passes where planes are
-///           turned, with a fit for each. Where the hull is not convex, a product of a direction with all
-///           points for each slab tried.
+///           turned, with a fit for each. Where points were left out, a product of a direction with them, or
+///           with all points, for each slab tried.
 std::optional<DualFacets> partition_into_slabs(const SimplicialComplex& complex, const WidthSpace& space,
                                                const double* coordinates,
                                                std::span<const double> gradient_factor, PointsAbove above,

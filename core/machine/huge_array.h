@@ -61,7 +61,7 @@ class HugeArray {
   const T& operator[](std::size_t index) const { return data_[index]; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Returns the memory behind elements [count, capacity) to the system, but for up to three quarters of a huge page.
+  /// Returns the memory behind elements [count, capacity) to the system, but for a part of a huge page.
   void discard_from(std::size_t count) {
     if (data_ != nullptr && bytes_for(capacity_) >= kLeastPagesBytes)
       discard_tail(data_ + count, data_ + capacity_);
