@@ -10,6 +10,22 @@ namespace {
 using Vector = Eigen::VectorXd;
 using ConstRow = Eigen::Map<const Vector>;
 
+/// Calls visit(point, facet) for merged facets' points that are not known to be vertices, once for each facet.
+template <class Visit>
+void for_points_of_merged(const SimplicialComplex& complex, const FacetLayout& layout,
+                          const std::vector<bool>& is_vertex, const Visit& visit) {
+  std::vector<std::uint32_t> last_facet(is_vertex.size(), FacetId::kNone);
+  for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {
+    for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
+      for (const PointId id : complex.vertices(simplex)) {
+        if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
+        last_facet[id.value] = facet;
+        visit(id.value, facet);
+      }
+    }
+  }
+}
+
 /// A merged facet hardly larger than the tolerance can be left with fewer than rank vertices. It keeps as
 /// many of its points as it needs, those in most facets first (`facets_at`: how many, for points in merged
 /// facets only; `found`: per merged facet, how many of its points became vertices here). One vertex too many
@@ -74,19 +90,13 @@ void keep_enough_vertices(const SimplicialComplex& complex, const FacetLayout& l
     for (const SimplexId simplex : layout.simplices_of(FacetId{facet}))
       for (const PointId id : complex.vertices(simplex)) is_vertex[id.value] = true;
   // Of the others only facets with corners that are no vertices are looked at.
-  std::vector<std::uint32_t> facets_at(is_vertex.size(), 0), last_facet(is_vertex.size(), FacetId::kNone);
+  std::vector<std::uint32_t> facets_at(is_vertex.size(), 0);
   std::vector<std::uint32_t> found(layout.facets - layout.simplicial,
                                    static_cast<std::uint32_t>(complex.rank));
-  for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {
-    for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
-      for (const PointId id : complex.vertices(simplex)) {
-        if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
-        last_facet[id.value] = facet;
-        ++facets_at[id.value];
-        found[facet - layout.simplicial] = 0;
-      }
-    }
-  }
+  for_points_of_merged(complex, layout, is_vertex, [&](std::uint32_t point, std::uint32_t facet) {
+    ++facets_at[point];
+    found[facet - layout.simplicial] = 0;
+  });
   keep_enough_of_merged(complex, layout, facets_at, found, is_vertex);
 }
 
@@ -97,17 +107,10 @@ std::vector<bool> find_vertices(const SimplicialComplex& complex, const FacetLay
   std::vector<bool> is_vertex = find_corners(complex, 0, layout.in_place, point_count);
   for (std::size_t facet = layout.in_place; facet < layout.simplicial; ++facet)
     for (const PointId id : complex.vertices(layout.simplices[facet])) is_vertex[id.value] = true;
-  std::vector<std::uint32_t> last_facet(point_count, FacetId::kNone);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
-  for (auto facet = static_cast<std::uint32_t>(layout.simplicial); facet < layout.facets; ++facet) {
-    for (const SimplexId simplex : layout.simplices_of(FacetId{facet})) {
-      for (const PointId id : complex.vertices(simplex)) {
-        if (is_vertex[id.value] || last_facet[id.value] == facet) continue;
-        last_facet[id.value] = facet;
-        incidences.emplace_back(id.value, facet);
-      }
-    }
-  }
+  for_points_of_merged(complex, layout, is_vertex, [&](std::uint32_t point, std::uint32_t facet) {
+    incidences.emplace_back(point, facet);
+  });
   std::sort(incidences.begin(), incidences.end());
   std::vector<std::uint32_t> around, facets_at(point_count, 0), found(layout.facets - layout.simplicial, 0);
   for (std::size_t begin = 0, end = 0; begin < incidences.size(); begin = end) {
