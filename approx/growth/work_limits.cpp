@@ -152,7 +152,7 @@ double WorkLimits::finish_seconds(const GrowthWork& work, const HullBall& ball, 
     sampled_at_ = rows;
     seconds_per_point_ = sampled_seconds_per_point(work, ball, 0);
   }
-  const double vertices = static_cast<double>(work.counters.insertions + work.rank + 1);
+  const auto vertices = static_cast<double>(work.most_vertices());
   double share = kPlainShare + kSharePerProduct * vertices * static_cast<double>(work.rank);
   if (!work.shifted_points.empty()) share += kMergeShare;
   if (gathering_ == Gathering::kWidth) share += width_share(work, work.points_outside);
